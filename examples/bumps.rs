@@ -54,7 +54,7 @@ fn heights() -> Result<TexelImage, TextureError> {
     })
 }
 
-/// What stands in a place: a mesh, and what is on it.
+/// The object in a place: a mesh and its image.
 struct Column {
     mesh: Mesh,
     map: Option<(MapKind, Texture, f32)>,
@@ -100,7 +100,7 @@ fn look(world: &mut World, fov_y: f32) {
     ));
 }
 
-/// What a column is in f64.
+/// A column in f64.
 fn true_picture(column: &Column) -> Result<Image> {
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins::reference());

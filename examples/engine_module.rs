@@ -20,7 +20,7 @@ use halfway::prelude::*;
 use halfway::record::parse_size;
 use halfway::render::PendingPicture;
 
-/// What the engine runs when it wants a picture.
+/// The schedule that the engine runs when it wants a picture.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 struct MyFrame;
 

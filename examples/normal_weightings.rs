@@ -1,4 +1,4 @@
-//! What should count how much in the mean of the face normals around a vertex? From left to right every face the same,
+//! Weightings of the face normals around a vertex. From left to right every face the same,
 //! by its area, by its angle at the vertex, and by Max's weights; from top to bottom a sphere of uneven triangles, a
 //! coarse teapot, and a box with narrow bevels. docs/normals.md tells more.
 //!

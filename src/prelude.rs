@@ -1,4 +1,4 @@
-//! What a scene in code needs, in one `use`.
+//! Everything that a scene in code needs, in one `use`.
 
 pub use crate::HalfwayPlugins;
 pub use bevy_app::prelude::*;

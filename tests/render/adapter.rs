@@ -1,8 +1,8 @@
-//! What is measured of the adapter, and what the environment says of it. `cargo xtask adapters` runs these on each.
+//! Properties of the adapter, measured and told by the environment. `cargo xtask adapters` runs these on each.
 
 use halfway::render::{Adapter, AdapterChoice};
 
-/// What the environment names, else a graphics adapter, which most of these tests are about.
+/// The adapter that the environment names, else a graphics adapter, which most of these tests are about.
 pub(crate) fn choice() -> AdapterChoice {
     if std::env::var_os("HALFWAY_ADAPTER").is_some() { AdapterChoice::default() } else { AdapterChoice::gpu() }
 }

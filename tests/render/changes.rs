@@ -152,7 +152,7 @@ fn set(stage: &mut Stage) -> Vec<Entity> {
     stage.set(&every_kind())
 }
 
-/// What happens to a scene.
+/// A change of a scene.
 struct Change {
     name: &'static str,
     make: fn(&mut Stage, &[Entity]),

@@ -40,7 +40,7 @@ fn sun(toward: f32) -> Lamp {
     Lamp::directional(DirectionalLight::white(), -tilted(toward))
 }
 
-/// What the middle of the picture shows.
+/// The color in the middle of the picture.
 fn centre(stage: &mut Stage, scene: &Scene) -> f64 {
     let picture = stage.draw(scene);
     f64::from(picture.get_pixel(picture.width() / 2, picture.height() / 2).0[0])

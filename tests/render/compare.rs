@@ -1,4 +1,4 @@
-//! What the stage draws against what the oracle says of the same world, and pictures against each other.
+//! Comparisons of the stage with the oracle, and of pictures with each other.
 
 use crate::render::scene::Scene;
 use crate::render::stage::Stage;

@@ -1,4 +1,4 @@
-//! What a frame did, by its own count: nothing is done twice, and nothing that cannot be seen.
+//! The counters of a frame: nothing is done twice, and nothing that cannot be seen.
 
 use crate::render::compare::{Failures, assert_as_expected, assert_identical};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light};
@@ -288,7 +288,7 @@ fn what_the_frustum_does_not_see_is_not_drawn() {
         assert_eq!(report.objects, 1, "{row}");
         let shows = picture.pixels().any(|pixel| pixel.0[0] > 0.0);
         match seen {
-            // What shows must have been drawn, and what is cut away must not.
+            // Visible parts must have been drawn, and those cut away must not.
             Some(true) => {
                 assert!(shows && report.visible == 1 && report.draws == 1, "{row}: shows {shows}, {report:?}");
             }

@@ -34,10 +34,10 @@ fn assert_culled(failures: &mut Failures, stage: &mut Stage, row: &str, scene: &
         println!("{row}: {patches_culled} of {patches} patches culled; 99.9 % within {:.1e}", verdict.most);
         failures.unless(patches > 100, || format!("{row}: {patches} patches"));
         failures.unless(culled.contains(&share), || format!("{row}: {patches_culled} of {patches} patches culled"));
-        // What is culled is not drawn, and what is not culled is drawn once.
+        // Culled patches are not drawn, and the others are drawn once.
         let drawn = triangles as f32 / triangles_in as f32;
         failures
-            // What lies between two patches of a run and is not seen is drawn with it, while it is little.
+            // A few hidden patches between two of a run are drawn with it.
             .unless((-0.01..0.12).contains(&(drawn + share - 1.0)), || {
                 format!("{row}: {triangles} of {triangles_in} triangles")
             });

@@ -120,7 +120,7 @@ fn a_device_may_be_lost_at_any_moment_of_a_frame() {
         let before = settled(&mut stage);
         for set in RenderSet::ALL {
             stage.world().resource_mut::<LoseAt>().0 = Some(set);
-            // What the driver has not finished may keep it from saying so at once; no picture is wrong meanwhile.
+            // Unfinished work may keep the driver from saying so at once; no picture is wrong meanwhile.
             let result = stage.try_draw();
             assert!(is_loss(&result), "{row}, before {set:?}: {result:?}");
             assert!(before == settled(&mut stage), "{row}, before {set:?}: another picture");

@@ -1,4 +1,4 @@
-//! What cannot be drawn as asked is said, by the name of its entity and field, and nothing panics.
+//! Errors name the entity and the field that cannot be drawn as asked, and nothing panics.
 
 use crate::render::scene::{Lamp, Scene, Thing, glowing, point_light};
 use crate::render::stage::Stage;
@@ -46,7 +46,7 @@ fn point(edit: impl FnOnce(&mut PointLight)) -> PointLight {
     light
 }
 
-/// What is done to a good scene, and what its error must say.
+/// A fault planted in a good scene, and the words of its error.
 type Row = (&'static str, fn(&mut World), &'static [&'static str]);
 
 const NAN: LinearRgba = LinearRgba::rgb(0.5, f32::NAN, 0.5);

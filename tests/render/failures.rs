@@ -1,4 +1,4 @@
-//! What a failing comparison says and leaves.
+//! The message and the files of a failing comparison.
 
 use crate::render::compare::{FLOAT, Failures};
 use crate::render::scene::{Scene, Thing, glowing};

@@ -1,4 +1,4 @@
-//! What is known to be wrong. Each test asserts what happens now, and fails when that is mended: then its case moves to
+//! Known issues. Each test asserts what happens now, and fails when that is mended: then its case moves to
 //! where the right behaviour is tested.
 
 use crate::render::scene::{Scene, Thing, glowing};

@@ -9,7 +9,7 @@ use halfway::lighting::Frequency;
 use halfway::lighting::bounds::{STEP, linear_tolerance};
 use halfway::prelude::*;
 
-/// What the stage leaves out at most.
+/// The most that the stage leaves out.
 const HALF_A_STEP: f64 = 0.5 * STEP;
 
 /// Seen from straight above, so that every patch of a floor about the origin with this edge shows.
@@ -293,7 +293,7 @@ fn lights_that_cannot_reach_are_not_assigned() {
                 let report = stage.report();
                 let named = format!("{row}, {} patches, {shading:?}", report.patches);
                 assert_eq!((report.lights, report.lights_assigned), (24, assigned), "{named}");
-                // What is out of range is hardly looked at either, but by a floor in one piece: boxes hold the spheres
+                // Lights out of range are hardly looked at either, but by a floor in one piece: boxes hold the spheres
                 // around patches, which some of these lights reach.
                 if *row == "lights out of range" && divisions > 1 {
                     assert!(report.light_pairs < pairs + pairs / 8, "{named}: {} of {pairs}", report.light_pairs);

@@ -54,7 +54,7 @@ fn waves(height: f32) -> Map {
     Map::new(from_heights(&heights.expect("a small image"), [Wrap::Repeat; 2], height).expect("normals"))
 }
 
-/// What the stage draws of a scene into bytes without a curve, within N steps; and the terms that patches shade.
+/// The picture of a scene in bytes without a curve, within N steps; and the terms that patches shade.
 fn drawn(stage: &mut Stage, scene: &Scene, steps: f32) -> (image::RgbaImage, u64) {
     stage.world().insert_resource(ViewTolerance(Tolerance::steps(steps)));
     stage.set(scene);

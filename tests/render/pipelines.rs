@@ -8,7 +8,7 @@ use halfway::lighting::Frequency;
 use halfway::prelude::*;
 use std::ops::Range;
 
-/// What decides a pipeline, each by its number of choices.
+/// The choices that decide a pipeline, each by its number of choices.
 const FACTORS: [(&str, usize); 12] = [
     ("shading", 5),
     ("reflectance", 3),

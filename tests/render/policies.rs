@@ -53,7 +53,7 @@ fn clamping_costs_nothing() {
         set_policy(&mut stage, Intensity::Clamp);
         assert!(stage.bytes() == before, "after {name}");
         stage.bytes();
-        // What the policy drew with another format stays in the cache.
+        // Pipelines of the policy with another format stay in the cache.
         let FrameReport { pipelines, pipelines_live, .. } = counts;
         let again = FrameReport { pipelines, pipelines_live, ..stage.report().clone() };
         assert_eq!(again, counts, "after {name}");

@@ -59,7 +59,7 @@ fn direction() -> impl Strategy<Value = Vec3> {
     })
 }
 
-/// What a lamp is made of: three colours, the constants of its attenuation, a range, where it is and what it shines at,
+/// The parameters of a lamp: three colours, the constants of its attenuation, a range, where it is and what it shines at,
 /// and a cone.
 type Parts = ([LinearRgba; 3], [f32; 3], f32, [Vec3; 2], Cone);
 

@@ -43,7 +43,7 @@ pub(crate) enum Kind {
     Spot(SpotLight),
 }
 
-/// What a lamp is attached to.
+/// The frame that a lamp is attached to.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum On {
     World,

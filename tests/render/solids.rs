@@ -158,7 +158,7 @@ fn rms<'a>(a: &[[f64; 3]], b: impl Iterator<Item = &'a [f64; 3]>) -> f64 {
     (squares.sum::<f64>() / (3 * a.len()) as f64).sqrt()
 }
 
-/// What is faded is off by less than this part of what one sample a pixel is off by; it is 0.361.
+/// The error of faded patterns relative to one sample a pixel is below this; it is 0.361.
 const MOST_OFF: f64 = 0.4;
 
 /// A checkered floor to the horizon, against the mean of 81 samples a pixel, whose footprints are a ninth as long.

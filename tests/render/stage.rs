@@ -70,7 +70,7 @@ impl Stage {
         self.world().resource_mut::<Headless>().pixels = pixels;
     }
 
-    /// What the camera's bytes are to mean from now on.
+    /// The encoding of the camera's bytes from now on.
     pub(crate) fn encode(&mut self, encoding: Encoding) {
         let world = self.world();
         for mut camera in world.query::<&mut Camera>().iter_mut(world) {
@@ -82,7 +82,7 @@ impl Stage {
         self.world().resource_mut::<Headless>().size = UVec2::new(width, height);
     }
 
-    /// What has drawn.
+    /// The adapter that has drawn.
     pub(crate) fn adapter(&self) -> Adapter {
         Adapter::of(self.app.world()).expect("a frame has been drawn")
     }
@@ -152,7 +152,7 @@ impl Stage {
         entity
     }
 
-    /// What should be seen of what stands, since the last frame.
+    /// The objects that should be seen, since the last frame.
     pub(crate) fn oracle(&mut self) -> Oracle {
         let size = self.world().resource::<Headless>().size;
         Oracle::new(self.world(), size).unwrap_or_else(|error| panic!("{error}"))

@@ -1,4 +1,4 @@
-//! What is hidden: drawn as if it were not there, by the renderer and by the oracle.
+//! Hidden objects are drawn as if they were not there, by the renderer and by the oracle.
 
 use crate::render::compare::{FLOAT, Failures, assert_identical, difference};
 use crate::render::scene::{Lamp, On, Scene, Thing, directional_light, material, other_material, point_light, rotated};
@@ -55,7 +55,7 @@ fn parent(world: &World, entity: Entity) -> Entity {
 
 type Hide = fn(&mut World, &[Entity]);
 
-/// What is hidden, and the scene that does without it.
+/// The hidden entities, and the scene without them.
 fn rows() -> Vec<(&'static str, Hide, Scene)> {
     vec![
         ("nothing", |world, things| set(world, things[0], Inherited), scene()),

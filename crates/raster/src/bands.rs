@@ -97,7 +97,7 @@ fn rows<T>(band: &mut [T], width: usize) -> impl Iterator<Item = &mut [T]> {
     band.chunks_exact_mut(CHANNELS * width)
 }
 
-/// What follows, or nothing of an empty list.
+/// The next element, or nothing of an empty list.
 fn from<T>(list: &mut [T], start: usize) -> &mut [T] {
     list.get_mut(start..).unwrap_or_default()
 }

@@ -22,7 +22,7 @@ pub(crate) struct Job {
     pub(crate) at_hand: bool,
 }
 
-/// What is to be drawn, tile by tile. Its memory is kept from frame to frame.
+/// The triangles to draw, tile by tile. Its memory is kept from frame to frame.
 #[derive(Debug, Default)]
 pub(crate) struct Bins {
     pub(crate) states: Vec<State>,
@@ -53,7 +53,7 @@ struct Span {
     start: u64,
 }
 
-/// What one thread finds of them.
+/// The share of them that one thread finds.
 #[derive(Debug, Default)]
 pub(crate) struct BinsPart {
     /// Which pieces it looks at, counted over all spans.

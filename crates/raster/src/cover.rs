@@ -93,7 +93,7 @@ pub(crate) const EVEN: i32 = -1;
 pub(crate) struct TileBuffer {
     /// 1/w, 0 where nothing is.
     pub(crate) depth: Vec<[f32; LIST]>,
-    /// What shades it: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's number.
+    /// The number of its shader: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's number.
     /// Where the second sample's is [`EVEN`], the first one's lists hold for all samples.
     pub(crate) shader: Vec<[i32; LIST]>,
     /// With four samples, which triangle it is.
@@ -126,12 +126,12 @@ pub(crate) struct Kept<'a> {
     pub(crate) face: bool,
     /// The number of the tile's mapped triangle, where it is one.
     pub(crate) mapped: Option<i32>,
-    /// What says where a mask leaves anything, where there is one.
+    /// The test of a mask, where there is one.
     pub(crate) mask: Option<(&'a Look<'a>, &'a State, bool)>,
 }
 
 impl<'a> Kept<'a> {
-    /// What shading takes.
+    /// Inputs of shading.
     #[inline(always)]
     pub(crate) fn of(look: &'a Look<'a>, state: &'a State, back: bool, mapped: Option<i32>) -> Self {
         if let Some(maps) = &state.maps {

@@ -34,7 +34,7 @@ fn byte<S: Simd>(simd: S, x: F<S>, format: PixelFormat) -> I<S> {
     fma::<S>(share, splat(simd, 255.0), splat(simd, 0.5)).to_int()
 }
 
-/// What the target keeps of a color: of bytes 0 to 1, of floats anything from 0.
+/// The part of a color that the target keeps: 0 to 1 for bytes, anything from 0 for floats.
 #[inline(always)]
 pub(crate) fn kept<S: Simd>(simd: S, color: V3<S>, format: PixelFormat) -> V3<S> {
     match format {

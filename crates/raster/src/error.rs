@@ -1,4 +1,4 @@
-//! What can be wrong with a pass.
+//! Faults of a pass.
 
 use thiserror::Error;
 
@@ -32,7 +32,7 @@ pub enum RasterError {
     /// The system refuses the memory that drawing takes.
     #[error("{bytes} bytes of memory for {what} were refused")]
     Memory {
-        /// What it is for.
+        /// The purpose of the memory.
         what: &'static str,
         /// How much was asked for.
         bytes: u64,
@@ -46,9 +46,9 @@ pub enum RasterError {
         index: usize,
         /// Which field.
         field: &'static str,
-        /// What it is.
+        /// Its value.
         value: f64,
-        /// What it has to be.
+        /// The expected value.
         expected: &'static str,
     },
     /// An index or range reaches beyond what it indexes.
@@ -86,13 +86,13 @@ pub enum RasterError {
     /// A policy makes no finished picture.
     #[error("no picture can be finished so: {reason}")]
     Policy {
-        /// What is wrong with it.
+        /// Its fault.
         reason: String,
     },
     /// A width was asked for that this CPU does not have, or whose name is unknown.
     #[error("this CPU cannot draw with {asked:?}; it has {available}")]
     Width {
-        /// What was asked for.
+        /// The name that was asked for.
         asked: String,
         /// The names that would do, with commas between.
         available: String,
@@ -102,7 +102,7 @@ pub enum RasterError {
     Threads {
         /// How many were asked for.
         count: usize,
-        /// What the system says.
+        /// The system's message.
         reason: String,
     },
 }

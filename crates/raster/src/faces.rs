@@ -1,4 +1,4 @@
-//! What triangles have of their own: their normals, or what flat shading makes of them.
+//! Values of triangles: their normals, or their colors under flat shading.
 
 use crate::lane_triangles::{LaneTriangles, spread};
 use crate::lanes::{F, MOST_LANES, Simd, V3, add, cross, each, load, max, neg, safe_normalize, scale, splat, sub};

@@ -1,4 +1,4 @@
-//! What is behind what a tile shows already, with one sample a pixel: it need not be lit, nor drawn.
+//! Triangles behind those that a tile shows already, with one sample a pixel: they need not be lit, nor drawn.
 
 use crate::cover::{TINY_AT, TINY_PIXELS, TileBuffer};
 use crate::lanes::{Simd, counting_i, lanes, load, splat, splat_i};

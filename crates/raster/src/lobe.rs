@@ -7,7 +7,7 @@ use fearless_simd::prelude::*;
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::HALFWAY_MIN;
 
-/// What the highlights of points take from the surface.
+/// Inputs of the highlights of points from the surface.
 pub(crate) trait PointLobe<S: Simd>: Copy {
     /// S, without the gate n·l > 0.
     fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S>;

@@ -1,10 +1,10 @@
-//! What shading takes from the frame.
+//! Inputs of shading from the frame.
 
 use crate::pass::Pass;
 use crate::state::State;
 use crate::vertices::Screen;
 
-/// What shading a tile takes from the frame.
+/// Inputs of shading a tile from the frame.
 #[derive(Clone, Copy)]
 pub(crate) struct Look<'a> {
     pub(crate) pass: &'a Pass<'a>,

@@ -14,7 +14,7 @@ use halfway_lighting::record::MaterialRecord;
 /// I by what images multiply: the ambient, the diffuse and the specular part.
 pub(crate) type PartsOf = [[f32; 3]; 3];
 
-/// What a triangle's pixels take.
+/// Inputs of a triangle's pixels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct MappedTriangle {
     /// How 1/w grows from pixel to pixel.

@@ -27,7 +27,7 @@ pub(crate) struct MappedPixel<'a> {
     w: f32,
 }
 
-/// What a pixel sees of an image of normals.
+/// An image of normals as a pixel sees it.
 #[derive(Clone, Copy)]
 pub(crate) struct SeenNormals {
     /// Their mean, or the normal of their mean slopes, as texels have it.
@@ -36,7 +36,7 @@ pub(crate) struct SeenNormals {
     roughness: Roughness,
 }
 
-/// What highlights take of them beside where they point, the amount in it.
+/// The inputs of highlights from them beside their direction, the amount included.
 #[derive(Clone, Copy)]
 enum Roughness {
     None,
@@ -50,7 +50,7 @@ enum Roughness {
 pub(crate) struct PixelGloss {
     /// Of round ones, or of the mirrored environment.
     pub(crate) exponent: f32,
-    /// What they are multiplied by.
+    /// Their factor.
     factor: f32,
     /// The inverse of how wide they are along their axes, where they are not round.
     widths: Option<[f32; 3]>,
@@ -91,7 +91,7 @@ impl MappedPixel<'_> {
         OnImage { uv, footprint: ways }
     }
 
-    /// What the filter makes of an image's texels, each number in 0 to 1.
+    /// The filtered texels of an image, each number in 0 to 1.
     fn texel(&self, call: &MapCall) -> [f32; 4] {
         let OnImage { uv, footprint } = self.on_image(call);
         let data = &self.pass.maps[call.map as usize];
@@ -99,7 +99,7 @@ impl MappedPixel<'_> {
         lookup::filtered(&data.pyramid, &call.sampling, uv, footprint).map(|t| if t > 0.0 { t.min(1.0) } else { 0.0 })
     }
 
-    /// What an image multiplies by: 1 where there is none.
+    /// The factor of an image: 1 where there is none.
     fn factor(&self, kind: MapKind) -> [f32; 4] {
         let Some(call) = &self.maps.calls[kind as usize] else { return [1.0; 4] };
         let amount = self.pass.maps[call.map as usize].amount;
@@ -110,7 +110,7 @@ impl MappedPixel<'_> {
         self.maps.calls[kind as usize].map_or(1.0, |call| self.factor(kind)[call.channel as usize])
     }
 
-    /// What the solid multiplies by: 1 where there is none.
+    /// The factor of the solid: 1 where there is none.
     fn solid(&self) -> [f32; 3] {
         let Some(solid) = &self.maps.solid else { return [1.0; 3] };
         let p = self.three(PLACE);
@@ -134,14 +134,14 @@ impl MappedPixel<'_> {
         of_vertices * if has_own { self.factor_of_one(MapKind::Opacity) } else { self.factor(MapKind::Color)[3] }
     }
 
-    /// What it sees of an image of normals, where light is shaded at the fragments.
+    /// The image of normals as it sees it, where light is shaded at the fragments.
     pub(crate) fn normals(&self, state: &State) -> Option<SeenNormals> {
         let call = self.maps.calls[MapKind::Normal as usize].as_ref()?;
         if !matches!(state.stage, Stage::Fragment | Stage::Mixed) {
             return None;
         }
         let data = &self.pass.maps[call.map as usize];
-        // What is mirrored turns twice as far.
+        // A mirrored direction turns twice as far.
         let turned = if state.reflectance == Reflectance::Phong { 2.0 * data.amount } else { data.amount };
         if call.far_normals == FarNormals::Lean {
             let OnImage { uv, footprint } = self.on_image(call);
@@ -191,7 +191,7 @@ impl MappedPixel<'_> {
         bumped_normal(n, self.three(FRAME), along, rises, otherwise)
     }
 
-    /// What highlights are of a material with this exponent.
+    /// The highlights of a material with this exponent.
     pub(crate) fn gloss(&self, seen: Option<&SeenNormals>, exponent: f32) -> PixelGloss {
         let exponent = exponent * self.factor_of_one(MapKind::Shininess);
         match seen.map_or(Roughness::None, |seen| seen.roughness) {
@@ -288,7 +288,7 @@ impl<S: Simd> MappedPixels<'_, S> {
         colors
     }
 
-    /// What lights bring to the pixels.
+    /// The light at the pixels.
     #[inline(always)]
     fn lit(&self, simd: S, look: &Look, state: &State, maps: &DrawMaps, back: bool) -> Irradiance<S> {
         let w = splat(simd, 1.0) / self.inverse_w;

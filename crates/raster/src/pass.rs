@@ -1,4 +1,4 @@
-//! What is drawn: plain data, borrowed for one picture.
+//! A pass: plain data, borrowed for one picture.
 
 use crate::Pieces;
 use halfway_lighting::record::Cull;
@@ -15,7 +15,7 @@ pub struct Pass<'a> {
     pub size: [u32; 2],
     /// How many points a pixel takes.
     pub samples: Samples,
-    /// What is written of a pixel.
+    /// The values that are written of a pixel.
     pub pixels: PixelFormat,
     /// The color where nothing is drawn.
     pub clear: [f32; 3],
@@ -28,7 +28,7 @@ pub struct Pass<'a> {
     /// Numbers of lights, one list after the other; see
     /// [`LightRange`](halfway_lighting::record::LightRange).
     pub lists: &'a [u32],
-    /// What surfaces are made of, and how they are lit.
+    /// The materials of surfaces, and their lights.
     pub surfaces: &'a [SurfaceRecord],
     /// Where meshes stand.
     pub instances: &'a [InstanceRecord],
@@ -38,7 +38,7 @@ pub struct Pass<'a> {
     pub maps: &'a [MapData],
     /// The environment.
     pub surroundings: Option<&'a SurroundingsData>,
-    /// What is drawn, first to last. Of opaque fragments in equal depth the first drawn stays. Blended ones are drawn
+    /// The draws, first to last. Of opaque fragments in equal depth the first drawn stays. Blended ones are drawn
     /// over all opaque ones, in this order.
     pub draws: &'a [DrawCall],
 }
@@ -50,7 +50,7 @@ impl Pass<'_> {
     }
 }
 
-/// What is written of a pixel: red, green, blue, and 1 or 255 as alpha.
+/// The values of a pixel: red, green, blue, and 1 or 255 as alpha.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PixelFormat {
     /// Bytes, clamped and encoded as sRGB.
@@ -100,7 +100,7 @@ pub struct MapCall {
     pub uv_set: UvSet,
     /// The number that counts where one does.
     pub channel: Channel,
-    /// What highlights take of normals beside where they point.
+    /// The treatment of highlights under minified normals.
     pub far_normals: FarNormals,
 }
 

@@ -74,7 +74,7 @@ pub enum TriangleOrder {
     Kept,
 }
 
-/// What a mesh's vertices have beside their positions: lists of one entry a position, or empty ones.
+/// Attributes of a mesh's vertices beside their positions: lists of one entry a position, or empty ones.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct VertexLists<'a> {
     /// Unit length; draws that are unlit or flat do without.

@@ -144,7 +144,7 @@ fn tiles_of(low: f32, high: f32, size: f32) -> Option<([u16; 2], bool)> {
     if low >= size || high < 0.0 {
         return None;
     }
-    // What is no number reaches everywhere.
+    // NaN reaches everywhere.
     let first = if low > 0.0 { low } else { 0.0 };
     let last = if high < size - 1.0 { high } else { size - 1.0 };
     Some(([first, last].map(|x| (x as u32 / TILE as u32) as u16), low > 0.0 && high < size - 1.0))

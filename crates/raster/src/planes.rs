@@ -21,7 +21,7 @@ pub(crate) struct LaneSlopes<S: Simd> {
     pub(crate) dy: f32x4<S>,
 }
 
-/// What is interpolated over a triangle.
+/// Planes of the values interpolated over a triangle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Planes {
     /// 1/w, and three numbers over w.
@@ -34,7 +34,7 @@ pub(crate) struct Planes {
     pub(crate) face: [f32; 3],
     /// The least and greatest 1/w of its corners.
     pub(crate) range: [f32; 2],
-    /// What is nearest is told by this.
+    /// The depth, which decides what is nearest.
     pub(crate) depth: DepthPlane,
 }
 

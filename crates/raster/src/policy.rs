@@ -1,4 +1,4 @@
-//! What becomes of a finished picture whose intensities exceed 1.
+//! Policies for finished pictures whose intensities exceed 1.
 
 use crate::encode::srgb_encoded;
 use crate::error::RasterError;
@@ -10,7 +10,7 @@ use halfway_lighting::Intensity;
 use halfway_lighting::equations::{ACES_WHITE, divisor};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// What a channel is put through.
+/// The curve of a channel.
 #[derive(Clone, Copy, Debug)]
 enum ToneCurve {
     DividedBy(f32),
@@ -53,7 +53,7 @@ impl Rasterizer {
                 let by = divisor(self.largest(drawn), before.unwrap_or(1.0), before.map_or(0.0, |_| smoothing));
                 (ToneCurve::DividedBy(by), Some(by))
             }
-            // What underflows is a white point that no picture reaches.
+            // A number that underflows is a white point that no picture reaches.
             Intensity::Reinhard { white } => (ToneCurve::Reinhard(f64::from(white).powi(-2) as f32), None),
             Intensity::Aces => (ToneCurve::Aces, None),
             other => return Err(RasterError::Policy { reason: format!("{other:?} acts on each surface") }),

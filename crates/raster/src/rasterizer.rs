@@ -1,4 +1,4 @@
-//! What draws passes, and hands their tiles to threads.
+//! The rasterizer, which draws passes and hands their tiles to threads.
 
 use crate::bands::{Bands, ClearTiles};
 use crate::bins::Bins;

@@ -20,7 +20,7 @@ use fearless_simd::prelude::*;
 use halfway_lighting::Samples;
 use halfway_lighting::equations::NORMAL_MIN;
 
-/// What is interpolated in some pixels.
+/// Values interpolated in some pixels.
 #[derive(Clone, Copy)]
 pub(crate) struct Fragments<'a, S: Simd> {
     /// In pixels from the tile's first.
@@ -92,7 +92,7 @@ impl<S: Simd> Fragments<'_, S> {
         add::<S>(self.interpolated(simd, self.second), shade)
     }
 
-    /// What images have part in.
+    /// The part of shading that reads images.
     #[inline(always)]
     pub(crate) fn of_maps(&self) -> MappedPixels<'_, S> {
         MappedPixels { triangles: self.triangles, of: self.mapped, place: self.place, inverse_w: self.inverse_w }
@@ -141,7 +141,7 @@ pub(crate) struct Even<S: Simd> {
 }
 
 impl<S: Simd> Even<S> {
-    /// What is not drawn.
+    /// Nothing is drawn.
     #[inline(always)]
     pub(crate) fn clear(simd: S, pass: &Pass) -> Self {
         Self { shader: 0, bytes: bytes(simd, cleared(simd, pass.clear, pass.pixels), pass.pixels) }
@@ -189,7 +189,7 @@ impl TileBuffer {
             let same = shaders.simd_eq(splat_i(simd, shader));
             left &= !same.to_bitmask();
             let place = pixels(simd, at);
-            // What is not drawn has no w; its lanes must not divide by 0.
+            // Lanes that are not drawn have no w and must not divide by 0.
             let inverse_w = same.select(load(simd, &self.depth[0], at), splat(simd, 1.0));
             let (state, back) = state_of(look.states, shader);
             let fragments = self.fragments(simd, (state, same), (0, at), place, inverse_w);
@@ -275,7 +275,7 @@ impl TileBuffer {
             color = select3::<S>(even, load3(simd, &self.lead[0], at), color);
             left &= !even.to_bitmask();
         }
-        // What another sample of the pixel has shaded is taken over.
+        // The shading of another sample of the pixel is reused.
         for before in 0..sample {
             let lit = !load_i(simd, &self.shader[before], at).simd_eq(splat_i(simd, 0));
             let same = triangle.simd_eq(load_i(simd, &self.triangle[before], at)) & lit;
@@ -354,7 +354,7 @@ impl TileBuffer {
     }
 }
 
-/// What a shader's number stands for.
+/// The meaning of a shader's number.
 #[inline(always)]
 pub(crate) fn state_of(states: &[State], shader: i32) -> (&State, bool) {
     (&states[(shader as usize >> 1) - 1], shader & 1 != 0)

@@ -1,4 +1,4 @@
-//! What shading takes from draws and surfaces, looked up by the number that a pixel keeps.
+//! Inputs of shading from draws and surfaces, looked up by the number that a pixel keeps.
 
 use crate::lanes::Simd;
 use crate::lighting::{Irradiance, Points, ShadedTerms, gathered, gathered_here};
@@ -93,7 +93,7 @@ impl State {
         self.glosses[usize::from(back)]
     }
 
-    /// What the lights of the vertex terms bring to points.
+    /// Light of the vertex terms at points.
     #[inline(always)]
     pub(crate) fn vertex_terms<S: Simd>(&self, simd: S, pass: &Pass, points: &Points<S>, back: bool) -> Irradiance<S> {
         let surface = &pass.surfaces[self.surface as usize];

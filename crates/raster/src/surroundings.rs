@@ -22,7 +22,7 @@ fn way(screen: &Screen, tile: [u32; 2], place: [f32; 2]) -> [f32; 3] {
 }
 
 impl MappedPixel<'_> {
-    /// What the environment adds to the ambient and to the specular part.
+    /// The light of the environment in the ambient and in the specular part.
     pub(crate) fn surrounded(
         &self,
         around: &SurroundingsData,
@@ -49,7 +49,7 @@ impl MappedPixel<'_> {
     }
 }
 
-/// What is seen where nothing is drawn, from the pixel `at` of the tile on: the sky, where there is one, as the target
+/// The color where nothing is drawn, from the pixel `at` of the tile on: the sky, where there is one, as the target
 /// keeps it, and else the clear color, which is given.
 #[inline(always)]
 pub(crate) fn behind<S: Simd>(simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {

@@ -22,7 +22,7 @@ use fearless_simd::prelude::*;
 use halfway_lighting::Samples;
 use halfway_lighting::record::InstanceRecord;
 
-/// What draws tiles, one after the other, in memory of its own.
+/// Draws tiles, one after the other, in memory of its own.
 pub(crate) struct Worker {
     vertices: Vertices,
     corners: Corners,
@@ -152,7 +152,7 @@ impl Worker {
         let range = work.piece.triangles.start as usize..work.piece.triangles.end as usize;
         let triangles = &work.mesh.triangles[range];
         let (shown, [fronts, backs]) = self.find_shown(simd, work, triangles);
-        // What is lit once a triangle or a vertex is lit only if something of it shows.
+        // Triangles and vertices are lit only if something of them shows.
         let lit_before = matches!(work.state.stage, Stage::Flat | Stage::Vertex);
         let shown = if lit_before && work.behind { self.not_hidden::<S>(triangles, shown) } else { shown };
         if shown == 0 {

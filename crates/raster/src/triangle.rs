@@ -87,7 +87,7 @@ pub(crate) struct Batch {
     near: [[f32; MOST_LANES]; 2],
 }
 
-/// What a batch has to know of the draw and the tile.
+/// Inputs of a batch from the draw and the tile.
 #[derive(Clone, Copy)]
 pub(crate) struct Covering {
     pub(crate) cull: Cull,
@@ -111,7 +111,7 @@ impl Covering {
     }
 }
 
-/// What of a batch's triangles is known first, and some of what follows from it.
+/// Set-up of a batch's triangles, and some values that follow from it.
 struct Outlines<S: Simd> {
     /// Corners from the center of the tile's first pixel, on the grid.
     x: [I<S>; 3],

@@ -68,7 +68,7 @@ pub(crate) enum PlacedPiece {
 /// A number a vertex.
 type List = [f32; SLOTS];
 
-/// What is known of a piece's vertices.
+/// The transformed vertices of a piece.
 pub(crate) struct Vertices {
     pub(crate) eye: [List; 3],
     /// In pixels.
@@ -193,7 +193,7 @@ impl Vertices {
             }
         }
         self.any_code = if AT_HAND { 0 } else { any_code.as_slice().iter().fold(0, |all, code| all | code) };
-        // What has to be clipped may lie anywhere.
+        // Triangles to be clipped may lie anywhere.
         if self.any_code & CLIPPED != 0 {
             return PlacedPiece::Anywhere;
         }
@@ -245,7 +245,7 @@ impl Vertices {
             let mut inside = x;
             if !AT_HAND {
                 let (low, high) = (splat(simd, SCREEN_LOW), splat(simd, SCREEN_HIGH));
-                // What is no number is beyond both ends.
+                // NaN is beyond both ends.
                 code |= x.simd_ge(low).select(zero, splat_i(simd, 2 << (2 * axis)));
                 code |= x.simd_le(high).select(zero, splat_i(simd, 4 << (2 * axis)));
                 inside = min::<S>(max::<S>(x, low), high);

@@ -40,7 +40,7 @@ pub enum VectorWidth {
     Avx2,
     /// 4 numbers: 64-bit ARM.
     Neon,
-    /// What every CPU of the target has; 4 numbers, and a fused multiply-add that is emulated exactly.
+    /// Vectors that every CPU of the target has; 4 numbers, and a fused multiply-add that is emulated exactly.
     Plain,
 }
 

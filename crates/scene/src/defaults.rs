@@ -1,4 +1,4 @@
-//! What a scene gets that says nothing about its camera or its lights.
+//! The camera and the lights of a scene that names none.
 
 use bevy_color::LinearRgba;
 use bevy_math::{DVec3, Vec3};

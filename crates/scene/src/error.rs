@@ -1,4 +1,4 @@
-//! What can be wrong with a scene file, told so that the line can be found and mended.
+//! Faults of a scene file, told so that the line can be found and mended.
 
 use std::io;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ pub enum SceneError {
     Read {
         /// The scene file.
         file: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
     /// The path leads to a folder, a pipe or a device.
@@ -28,7 +28,7 @@ pub enum SceneError {
     Write {
         /// The scene file.
         file: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
     /// The file is larger than [`SceneFile::MAX_BYTES`](super::SceneFile::MAX_BYTES).
@@ -61,7 +61,7 @@ pub enum SceneError {
         column: usize,
         /// The path of the key, such as `lights[2].attenuation`; empty for the scene as a whole.
         key: String,
-        /// What is wrong there, and what was expected.
+        /// The fault, and what was expected.
         message: String,
     },
     /// A value of a scene does not hold, and there is no text to point into.
@@ -69,7 +69,7 @@ pub enum SceneError {
     Value {
         /// The path of the key, such as `lights[2].attenuation`; empty for the scene as a whole.
         key: String,
-        /// What is wrong there, and what was expected.
+        /// The fault, and what was expected.
         message: String,
     },
     /// A model that the scene names cannot be loaded. The source names the file and the place in it.
@@ -77,7 +77,7 @@ pub enum SceneError {
     Model {
         /// The path of the key, such as `objects[0].mesh.path`.
         key: String,
-        /// What the loader said.
+        /// The loader's message.
         source: halfway_mesh::LoadError,
     },
     /// A material or a light that came with a model holds a value that cannot be used.

@@ -32,9 +32,9 @@ keys! {
         size: [u32; 2] = [1280, 720] => Limits::Counts(1, SceneFile::MAX_SIDE),
         /// The colour where nothing is drawn, linear RGB. 0 to 1e12.
         background: [f32; 3] = Camera::default().background.to_f32_array_no_alpha() => Limits::Numbers(Range::CHANNEL),
-        /// What the channels of a PNG picture hold.
+        /// The encoding of the channels of a PNG picture.
         output: Encoding = Encoding::default(),
-        /// What becomes of intensities above 1.
+        /// The policy for intensities above 1.
         intensity: Intensity = Intensity::default(),
         /// Coverage samples a pixel: 1, or 4 for smooth edges.
         samples: u32 = 1 => Limits::OneOf(&[1, 4], "expected 1 or 4"),
@@ -55,7 +55,7 @@ keys! {
         /// The lights; null or left out: those of the models, or a key light, a fill light and a headlight where the
         /// models have none. An empty list: no lights.
         lights: Option<Vec<LightEntry>> = None,
-        /// What is seen.
+        /// The objects.
         objects: Vec<ObjectEntry> = Vec::new(),
         [not in the file]
         /// Warnings about values of older files, one sentence each, with the file's name. They are not written.

@@ -52,7 +52,7 @@ fn located(error: &serde_json::Error, path: &str, text: &str, origin: &str) -> S
     } else {
         let value = value_at(text, path);
         match text[value..].starts_with(['{', '[']) || path.is_empty() {
-            // What is no JSON in an object or a list may be lines away from where that begins.
+            // An error of JSON in an object or a list may be lines away from where that begins.
             true if error.is_eof() => stopped,
             true if error.is_syntax() => text.floor_char_boundary(stopped.saturating_sub(1)),
             _ => value,

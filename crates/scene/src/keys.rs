@@ -45,12 +45,12 @@ pub(crate) trait Keys: Clone + PartialEq + 'static {
 pub(crate) trait Object: Keys {
     /// Whether an object has exactly one of the keys.
     const ONE_KEY: bool = false;
-    /// What messages expect in its place; if empty, the words and [`EXAMPLES`](Self::EXAMPLES).
+    /// The words of messages for what is expected in its place; if empty, the words and [`EXAMPLES`](Self::EXAMPLES).
     const EXPECTED: &'static str = "";
     /// Examples of the objects of a type that also has words.
     const EXAMPLES: &'static [&'static str] = &[];
 
-    /// What messages expect in its place.
+    /// The words of messages for what is expected in its place.
     fn expected() -> String {
         if !Self::EXPECTED.is_empty() {
             return Self::EXPECTED.to_owned();

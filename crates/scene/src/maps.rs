@@ -70,15 +70,15 @@ keys! {
         /// A PNG, JPEG, HDR or EXR file, relative to the scene file. Required.
         path: PathBuf,
         [optional]
-        /// What is beyond the image along u.
+        /// The continuation of the image along u.
         wrap_u: Wrap = Wrap::default(),
-        /// What is beyond the image along v.
+        /// The continuation of the image along v.
         wrap_v: Wrap = Wrap::default(),
         /// The filter where a texel is larger than a pixel.
         magnify: TexelFilter = TexelFilter::default(),
         /// The filter within each level where a texel is smaller than a pixel.
         minify: TexelFilter = TexelFilter::default(),
-        /// What is taken of the image where a texel is smaller than a pixel. Slopes of a `height` take levels alone.
+        /// The filter where a texel is smaller than a pixel. Slopes of a `height` take levels alone.
         levels: LevelFilter = LevelFilter::default(),
         /// The mesh's coordinates are moved by this, in widths and heights of the image.
         offset: [f32; 2] = [0.0; 2],
@@ -93,7 +93,7 @@ keys! {
         /// How much the image counts: 0 not at all, 1 in full; of normals what their slopes are multiplied by; of
         /// heights how high a 1 is, in lengths of the mesh.
         amount: f32 = 1.0,
-        /// What highlights take of a `normal` that is smaller than a pixel, beside where it points.
+        /// The treatment of highlights where texels of a `normal` image are smaller than a pixel.
         far_normals: FarNormals = FarNormals::default(),
     }
 }
@@ -128,7 +128,7 @@ impl MapEntry {
 }
 
 words! {
-    /// What is beyond an image.
+    /// The continuation of an image beyond its sides.
     Wrap {
         /// The image again.
         repeat = Self::Repeat,
@@ -150,7 +150,7 @@ words! {
         catmull_rom = Self::CatmullRom,
     }
 
-    /// What is taken of an image by how large a pixel is on it, and of what shape.
+    /// The filter of an image that is minified.
     LevelFilter {
         /// The image itself, whose texels are then skipped.
         none = Self::None,
@@ -174,7 +174,7 @@ words! {
         elliptical = Self::Elliptical,
     }
 
-    /// What highlights take of normals that are smaller than a pixel.
+    /// The treatment of highlights under minified normals.
     FarNormals {
         /// Where their mean points.
         mean = Self::Mean,

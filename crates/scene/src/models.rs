@@ -16,7 +16,7 @@ use crate::light_component::LightComponent;
 use crate::mesh::MeshEntry;
 use crate::object::ObjectEntry;
 
-/// What an object shows.
+/// The mesh of an object.
 pub(crate) struct ObjectShape {
     pub(crate) parts: Vec<ShapePart>,
     pub(crate) lights: Vec<ShapeLight>,

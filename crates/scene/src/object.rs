@@ -35,11 +35,11 @@ keys! {
         tolerance: Option<Tolerance> = None,
         /// The reflectance of this object; null: the scene's.
         reflectance: Option<Reflectance> = None,
-        /// What becomes of the colors at the mesh's vertices, if it has any.
+        /// The use of the colors at the mesh's vertices, if it has any.
         vertex_colors: VertexColors = VertexColors::default(),
         /// The images on the object; null: the model's own where there is no `material`.
         maps: Option<MapsEntry> = None,
-        /// What the object is cut from, whose color multiplies ambient and diffuse light; null: nothing.
+        /// The solid that the object is cut from, whose color multiplies ambient and diffuse light; null: nothing.
         solid: Option<SolidEntry> = None,
         [left out]
         /// Which sides are shown. Left out: `front`, or `both` for parts with a double-sided material of the model's

@@ -14,7 +14,7 @@ keys! {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct SolidEntry {
         [optional]
-        /// What fills space.
+        /// The pattern that fills space.
         kind: SolidKind = SolidTexture::default().kind,
         /// How many octaves of noise marble and noise have: 1 to 16.
         octaves: u32 = SolidTexture::default().octaves => Limits::Counts(1, MOST_OCTAVES),
@@ -40,7 +40,7 @@ impl SolidEntry {
 }
 
 words! {
-    /// What fills the space of a solid.
+    /// The pattern that fills the space of a solid.
     SolidKind {
         /// Cubes of side 1 around whole numbers, in turns of the two colors.
         checker = Self::Checker,

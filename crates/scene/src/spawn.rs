@@ -61,7 +61,7 @@ pub struct Spawned {
 /// Equal shapes share their meshes, and so do the parts of a model that show the same mesh of its file.
 ///
 /// # Errors
-/// What [`SceneFile::validate`] refuses, models that cannot be loaded, [`SceneError::NoMeshAssets`]
+/// Errors of [`SceneFile::validate`], models that cannot be loaded, [`SceneError::NoMeshAssets`]
 /// and [`SceneError::NoTextureAssets`]. Nothing is
 /// spawned then.
 pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Spawned, SceneError> {
@@ -224,7 +224,7 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     // Said only where it is not so anyway.
     insert_some(entity, Some(object.vertex_colors).filter(|colors| *colors != VertexColors::default()));
     insert_some(entity, object.blend.unwrap_or_else(|| own.is_some_and(|own| own.blend)).then_some(Blend));
-    // What asks for blending does not ask to be cut out.
+    // A material that asks for blending does not ask to be cut out.
     let of_model = own.and_then(|own| own.mask).filter(|_| object.blend != Some(true));
     insert_some(entity, object.mask.or(of_model).filter(|cutoff| *cutoff > 0.0).map(Mask));
 }

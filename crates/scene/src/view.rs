@@ -133,7 +133,7 @@ keys! {
         position: [f32; 3] = [0.0, 0.0, 3.0],
         /// The point in the middle of the picture; not `position`.
         target: [f32; 3] = [0.0; 3],
-        /// What is up in the picture; not along the line of sight. Any length above 0.
+        /// The direction that is up in the picture; not along the line of sight. Any length above 0.
         up: [f32; 3] = [0.0, 1.0, 0.0],
         /// Vertical field of view, in degrees above 0 and below 180.
         fov_y_deg: f32 = 45.0

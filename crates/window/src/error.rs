@@ -47,7 +47,7 @@ impl WindowError {
     }
 }
 
-/// What the display said, without the place in winit's source where winit learnt it.
+/// The display's message, without the place in winit's source where winit learnt it.
 pub(crate) fn reason(error: &impl ToString) -> String {
     let text = error.to_string();
     match text.strip_prefix("os error at ").and_then(|rest| rest.split_once(": ")) {

@@ -77,7 +77,7 @@ impl Forward {
         MouseWheel { unit, x, y, window: self.window, phase }
     }
 
-    /// What is held is let go, because letting go may happen in another window. `bevy_input` does so
+    /// Held keys are released, because letting go may happen in another window. `bevy_input` does so
     /// by itself for physical keys only.
     fn release_all(&mut self, world: &mut World) {
         world.write_message(KeyboardFocusLost);

@@ -57,7 +57,7 @@ fn physical_code(code: from::KeyCode) -> KeyCode {
     )
 }
 
-/// What the key means under the layout.
+/// The meaning of the key under the layout.
 pub(crate) fn logical(key: &from::Key) -> Key {
     match key {
         // `into`, because `bevy_input` holds a `String` or a `SmolStr`, as its features say.

@@ -28,9 +28,9 @@ pub struct OrbitCamera {
     pub nearest: f32,
     /// The greatest distance that zooming reaches, `nearest` or more. Default a hundred times the first one.
     pub farthest: f32,
-    /// What Home and R go back to.
+    /// The view that Home and R return to.
     start: Orbit,
-    /// What the `Transform` shows.
+    /// The view that the `Transform` shows.
     shown: Option<Orbit>,
 }
 
@@ -128,7 +128,7 @@ impl Default for DragArea {
     }
 }
 
-/// What the user asks of the cameras in one frame.
+/// The input for the cameras in one frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Wish {
     /// Yaw and pitch in radians.

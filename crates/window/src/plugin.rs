@@ -16,7 +16,7 @@ use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 
 /// Runs the App in a window: one `App::update` a frame, as fast as the display shows them.
 ///
-/// What the App draws goes to the window instead of a headless picture; the adapter is open before
+/// The App draws into the window instead of a headless picture; the adapter is open before
 /// the first update, so `Startup` systems find [`Gpu`](halfway_render::Gpu) and [`SurfaceTarget`], or
 /// [`Cpu`](halfway_render::Cpu) and [`CanvasTarget`](halfway_render::CanvasTarget), and the entity of the
 /// [`WinitWindow`]. Keys, mouse buttons, wheel and pointer reach `bevy_input`, its `MouseMotion` in logical pixels.

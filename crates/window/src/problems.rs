@@ -1,4 +1,4 @@
-//! What goes wrong is said once, where people see it.
+//! Problems are reported once, where people see them.
 
 use std::collections::HashSet;
 use std::fmt::Display;

@@ -20,7 +20,7 @@ const SELDOM: Duration = Duration::from_millis(250);
 /// Between titles: long enough to read one.
 const TITLE: Duration = Duration::from_millis(500);
 
-/// What the window is to be, from the plugin.
+/// The plugin's settings for the window.
 pub(crate) struct Settings {
     pub(crate) title: String,
     /// In logical pixels.
@@ -153,7 +153,7 @@ impl Runner {
         self.said.say_new(others);
     }
 
-    /// What costs too much for every frame: the title, and asking about the window and its display.
+    /// Work that costs too much for every frame: the title, and asking about the window and its display.
     fn now_and_then(&mut self, event_loop: &ActiveEventLoop) {
         let Some(open) = &self.open else { return };
         self.pace = open.pace();

@@ -44,7 +44,7 @@ fn scaled(value: u64) -> String {
     let mut number = value as f64;
     for prefix in ["k", "M", "G", "T", "P"] {
         number /= 1e3;
-        // What would round to a number of four digits takes the next prefix.
+        // A number that would round to four digits takes the next prefix.
         if number < 999.5 {
             let digits = usize::from(number < 99.95);
             return format!("{number:.digits$} {prefix}");

@@ -30,7 +30,7 @@ impl FrameTime {
     }
 }
 
-/// What a title says.
+/// The contents of a title.
 #[derive(Default)]
 struct Status<'a> {
     program: &'a str,
@@ -41,7 +41,7 @@ struct Status<'a> {
     rate: Option<f64>,
     shading: Option<&'static str>,
     reflectance: Option<&'static str>,
-    /// What becomes of intensities above 1, unless they are clamped.
+    /// The policy for intensities above 1, unless they are clamped.
     intensity: Option<&'static str>,
     /// How much light may be left out, in steps of 1/255.
     steps: Option<f32>,

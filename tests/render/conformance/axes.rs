@@ -28,7 +28,7 @@ enum Kind {
     Ambient,
 }
 
-/// What a row may be about.
+/// The axes of a row.
 struct Value {
     name: &'static str,
     set: fn(&mut Setup),

@@ -28,7 +28,7 @@ fn lit() -> Scene {
     with_colors(still_life().lit(point(Vec3::new(1.2, 1.6, 1.8))))
 }
 
-/// What a row changes of a scene.
+/// The change of a scene in a row.
 pub(super) type Change = (&'static str, fn(&mut Scene));
 
 /// The ways to shade.

@@ -46,7 +46,7 @@ fn each_material(scene: &mut Scene, change: impl Fn(&mut Material)) {
     scene.things.iter_mut().for_each(|thing| change(&mut thing.material));
 }
 
-/// What makes no difference to how it is shaded.
+/// Settings that make no difference to its shading.
 const CHANGES: [Change; 14] = [
     ("all", |_| ()),
     ("harmonics alone", |scene| each_material(scene, |material| material.specular = LinearRgba::BLACK)),

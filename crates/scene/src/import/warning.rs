@@ -1,4 +1,4 @@
-//! What was changed on the way.
+//! Changes made during the import.
 
 use thiserror::Error;
 

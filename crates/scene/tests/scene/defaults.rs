@@ -1,4 +1,4 @@
-//! What a file means that leaves keys out, and that a file written means the same as the one read.
+//! Defaults of keys that are left out; a written file means the same as the one read.
 
 use halfway_lighting::{Camera, Cone, Material, PointLight, Reflectance, Shading};
 use halfway_mesh::{Cuboid, Plane, Teapot, UvSphere};

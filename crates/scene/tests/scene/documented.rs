@@ -70,7 +70,7 @@ fn near(a: Option<f64>, b: Option<f64>) -> bool {
     matches!((a, b), (Some(a), Some(b)) if (a - b).abs() <= 1e-14 * a.abs())
 }
 
-/// What the row of a key has to say of its range, in the words of the page; colors are said once for all.
+/// The words for the range of a key in its row, in the words of the page; colors are said once for all.
 fn range_in_words(property: &Value) -> Option<String> {
     if property.get("const").is_some() || property.get("enum").is_some() {
         return None;
@@ -221,7 +221,7 @@ fn the_page_says_what_is_used_where_there_are_no_normals() {
     );
 }
 
-/// What the schema offers as a word of a scene or an object is drawn: `SceneFile` takes it.
+/// Every word that the schema offers is accepted by `SceneFile`.
 #[test]
 fn every_word_of_the_schema_is_accepted() {
     let schema = schema();

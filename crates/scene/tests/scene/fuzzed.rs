@@ -1,4 +1,4 @@
-//! What fuzzing asks of the reader of scene files: that it does not panic, that an error names the file, and that what
+//! The property that fuzzing checks of the reader of scene files: that it does not panic, that an error names the file, and that what
 //! was read can be written, and is read again as the same scene.
 
 use halfway_scene::SceneFile;

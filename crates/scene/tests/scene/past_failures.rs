@@ -1,4 +1,4 @@
-//! What fuzzing found once in the reader of scene files, and what it starts from: the files of `past_failures` here and
+//! Past findings of fuzzing in the reader of scene files, and its seeds: the files of `past_failures` here and
 //! of `fuzz/seeds/scene`.
 
 use std::fs;

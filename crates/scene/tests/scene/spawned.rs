@@ -18,7 +18,7 @@ use halfway_mesh::{Mesh, Mesh3d, MeshPlugin};
 
 use halfway_scene::{SceneError, SceneFile, Spawned, spawn};
 
-/// What a scene needs of an app: meshes and transforms. No GPU, no window.
+/// The needs of a scene in an app: meshes and transforms. No GPU, no window.
 pub(super) fn app() -> App {
     let mut app = App::new();
     app.add_plugins((MeshPlugin, TransformPlugin));

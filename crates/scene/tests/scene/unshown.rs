@@ -1,4 +1,4 @@
-//! What a model file says and a scene does not show is said.
+//! Parts of a model file that a scene does not show are reported.
 
 use std::path::PathBuf;
 
