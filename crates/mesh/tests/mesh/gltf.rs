@@ -381,7 +381,7 @@ fn cameras_are_kept() {
     }
 }
 
-/// What the corners of the triangle have.
+/// The values at the corners of the triangle.
 type Corners<T> = [T; 3];
 
 /// An attribute: name, shape, component type, whether it is normalised, byte stride, bytes.

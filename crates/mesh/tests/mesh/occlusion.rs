@@ -85,7 +85,7 @@ fn a_floor_under_a_ball_loses_what_the_ball_covers() {
         doubled += usize::from(0.21 * covered > 2.0 * OFF);
     }
     assert!(doubled > 300, "a larger ball would be found at {doubled} texels");
-    // What is farther than the reach is not there.
+    // Occluders beyond the reach do not count.
     let near = OcclusionBake { reach: 0.29, ..of_size(33, 33, 64) };
     assert!(baked(&floor, &[&ball], near).shares().iter().all(|share| *share == 1.0));
     let near = OcclusionBake { reach: 0.32, ..of_size(33, 33, 1024) };
