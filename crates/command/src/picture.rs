@@ -36,7 +36,7 @@ fn limits() -> Limits {
 /// Writes a picture that people look at.
 pub(crate) fn write(file: &Path, picture: image::RgbImage) -> Result<(), Failure> {
     use halfway::output::{PictureFormat, write_picture};
-    let format = PictureFormat::of(file, Some(8))?;
+    let format = PictureFormat::from_path(file, Some(8))?;
     let picture = Picture::Byte(DynamicImage::from(picture).into_rgba8());
     Ok(write_picture(&picture, file, format, Encoding::Srgb)?)
 }
