@@ -14,7 +14,7 @@ use crate::Mesh;
 ///
 /// let brick = Mesh::from(Cuboid::new(2.0, 0.5, 1.0));
 /// assert_eq!((brick.positions().len(), brick.triangle_count()), (24, 12));
-/// assert_eq!(brick.report().volume, 1.0);
+/// assert!((brick.report().volume - 1.0).abs() < 1e-12);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid {
