@@ -21,7 +21,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     input.spawn(&mut app)?;
     match app.run() {
         AppExit::Success => Ok(()),
-        // What went wrong has been said where it happened.
+        // The error was already printed.
         AppExit::Error(code) => Err(Failure::said(code.get())),
     }
 }

@@ -1,5 +1,4 @@
 #![doc = include_str!("../README.md")]
-
 // Powers and the functions of angles only by the door in `halfway_lighting::equations`: see clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 

@@ -138,8 +138,8 @@ pub fn spread_length<T: Number>([xx, _, yy]: [T; 3]) -> T {
 
 /// The lobe of a highlight (n·h)^s over normals whose slopes have this covariance Σ. Its width is Σ + I/s, whose
 /// inverse comes first (of x with x, of x with y, of y with y); the last number is 1/(s·√det(Σ + I/s)), which keeps its
-/// energy. Along a direction d, of length 1, the exponent is dᵀ(Σ + I/s)⁻¹d, as Ashikhmin and Shirley, "An Anisotropic Phong
-/// BRDF Model", 2000, have it: `halfway_lighting::equations::axial_exponent`. Without roughness it is s in all
+/// energy. Along a direction d, of length 1, the exponent is dᵀ(Σ + I/s)⁻¹d, as Ashikhmin and Shirley, "An Anisotropic
+/// Phong BRDF Model", 2000, have it: `halfway_lighting::equations::axial_exponent`. Without roughness it is s in all
 /// directions.
 pub fn lean_lobe<T: Number>(covariance: [T; 3], s: T) -> [T; 4] {
     // Of s·Σ + I, which is finite for each s; clamped to the range of squares of f32.

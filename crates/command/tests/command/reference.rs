@@ -1,4 +1,4 @@
-//! The reference renderer, and what is judged by it.
+//! The reference renderer, and its judgement of pictures.
 
 use crate::command::{asset, folder, halfway, succeeds};
 use std::fs;
@@ -20,7 +20,7 @@ fn the_reference_renderer_draws_only_where_it_is_asked_to() {
             .output()
             .expect("the command was built with this test")
     };
-    // What is asked for is not there.
+    // The adapter asked for does not exist.
     for arguments in [&["render", &teapot, "-o", "a.png"][..], &["adapters"], &["verify", &teapot]] {
         let output = without_adapter(arguments);
         assert_eq!(output.status.code(), Some(3), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));

@@ -1,4 +1,4 @@
-//! What is drawn within a tolerance keeps to it, where it once did not. `halfway-wild --steps` tries other scenes.
+//! Scenes that once exceeded their tolerance no longer do. `halfway-wild --steps` tries other scenes.
 
 use crate::command::{folder, halfway};
 use std::fs;

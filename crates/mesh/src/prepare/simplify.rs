@@ -133,8 +133,8 @@ impl Quadric {
 /// Some attributes of the wedges, as lengths, and quadrics of their deviations.
 ///
 /// In the plane of a triangle an attribute is g·p + d at a point p. Over the triangles around a wedge, weighted by
-/// their areas w, the squared deviations of a value s from that add up to s²·Σw − 2s·(p·Σw·g + Σw·d) + Σw·(g·p + d)²; the
-/// last term is a quadric.
+/// their areas w, the squared deviations of a value s from that add up to s²·Σw − 2s·(p·Σw·g + Σw·d) + Σw·(g·p + d)²;
+/// the last term is a quadric.
 #[derive(Default)]
 struct Attributes {
     /// The number of attributes of a wedge.
@@ -264,8 +264,8 @@ pub(super) struct Simplified {
     pub(super) triangles: Vec<[u32; 3]>,
     /// The largest of all collapses, in units of the mesh: the RMS distance of the vertex from the planes around it.
     pub(super) position_error: f64,
-    /// The mean edge, in units of the mesh, times its [weight](EDGE_WEIGHT), and times the largest change of normals and
-    /// colours where that is not [`VISIBLE`].
+    /// The mean edge, in units of the mesh, times its [weight](EDGE_WEIGHT), and times the largest change of normals
+    /// and colours where that is not [`VISIBLE`].
     pub(super) shading_error: f64,
     /// The largest distance that texture coordinates slide over the surface, in units of the mesh.
     pub(super) map_error: f64,

@@ -25,8 +25,8 @@ use divisor::judge_divided;
 /// or a finer one (four bits, the least that Vulkan grants; eight are usual).
 const EDGE_RADIUS: f64 = 1.0 / 16.0;
 /// If a triangle's own colour changes by more than this fraction of the range within the disc of [`EDGE_RADIUS`], any
-/// of the colours there is right; on a gentler slope only the one at the centre. A grid of 1/256 of a pixel changes that
-/// by less than 1/16 of this fraction, which the bars cover.
+/// of the colours there is right; on a gentler slope only the one at the centre. A grid of 1/256 of a pixel changes
+/// that by less than 1/16 of this fraction, which the bars cover.
 const STEEP: f64 = 0.04;
 
 /// The radius if corners are on the renderer's own grid: only single precision can still move an edge.
@@ -172,11 +172,11 @@ impl Verdict {
 /// samples.
 ///
 /// For each pixel whose error is over `bars.most` the oracle lists the colours that it [may show](Oracle::possible)
-/// with vertices moved by less than 1/16 of a pixel; with four samples a pixel, also for one beside which something else is
-/// visible. On an edge (several triangles, or a jump in the colour of one) and on a slope of more than 4 % of the range
-/// within that radius, each of these colours and that at the middle, give or take `bars.worst`, is right, and the pixel
-/// is counted separately; the error of a wrong one is its distance from the nearest of them. Behind blended layers,
-/// `bars.worst` is larger by `bars.layer` for each. No fraction of pixels is excused.
+/// with vertices moved by less than 1/16 of a pixel; with four samples a pixel, also for one beside which something
+/// else is visible. On an edge (several triangles, or a jump in the colour of one) and on a slope of more than 4 % of
+/// the range within that radius, each of these colours and that at the middle, give or take `bars.worst`, is right, and
+/// the pixel is counted separately; the error of a wrong one is its distance from the nearest of them. Behind blended
+/// layers, `bars.worst` is larger by `bars.layer` for each. No fraction of pixels is excused.
 ///
 /// If the expected picture has been [divided](Image::divided), the brightest pixel may be one of those. The one number
 /// that `actual` was divided by is estimated, and must be the largest channel of a picture that may be shown; the
