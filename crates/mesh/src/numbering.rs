@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_that_come_one_by_one_are_numbered_alike() {
+    fn incremental_numbering_agrees_with_batch_numbering() {
         let key = |i: u32| [i, i / 7, i.wrapping_mul(1 << 20)];
         let mut distinct = DistinctKeys::default();
         for i in 0..5000 {

@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn what_matters_stays_and_all_else_goes() {
+    fn reduction_keeps_only_relevant_parts() {
         let mut objects = vec![json!({"mesh": {"teapot": {"divisions": 5}}, "size": 3.25}); 20];
         objects[7]["color"] = json!([0.734_521, 0.25, 0.125]);
         objects[13]["name"] = json!("b");

@@ -114,7 +114,7 @@ cargo output
     }
 
     #[test]
-    fn what_needs_a_shell_is_refused_with_its_line() {
+    fn shell_features_are_refused_with_their_line() {
         let rows = [
             ("cargo run | tee log", "line 3: expected a program and its arguments, found the shell's |"),
             ("cargo run > log", "the shell's >"),

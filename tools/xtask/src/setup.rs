@@ -233,7 +233,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn what_is_missing_is_not_installed_unasked() {
+    fn missing_needs_are_not_installed_unasked() {
         let met = program("a shell", &["no-program-has-this-name", "sh"], &[]);
         let no_install = Setup { no_install: true };
         assert_eq!(no_install.meet(&[met]), Ok(()));

@@ -87,7 +87,7 @@ pub(super) fn page() -> Result<FailurePage, ChartError> {
                 (H. A. Schwarz, 1880) flat shading gets worse the finer it is cut.",
         remedy: "Cells about as long as wide, with no angle near 180°; normals of the surface, not of the faces; shade at \
                  pixels.",
-        test: "thin_triangles_err_by_their_length_and_lanterns_by_their_angles",
+        test: "thin_triangles_err_by_length_and_lanterns_by_angle",
         figures: vec![
             figure(
                 "slivers-stretched",
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn thin_triangles_err_by_their_length_and_lanterns_by_their_angles() {
+    fn thin_triangles_err_by_length_and_lanterns_by_angle() {
         let found =
             [16, 8, 4].map(|rows: u32| (1.0 / f64::from(rows), stretched(rows).expect("a square can be drawn")));
         let slope = slope(&found);

@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_has_a_place_is_shown() {
+    fn only_representable_values_are_shown() {
         let (linear, log) = (Axis::linear(""), Axis::log(""));
         assert!(linear.shows(0.0) && linear.shows(-1.0) && !linear.shows(f64::NAN));
         assert!(log.shows(1e-300) && !log.shows(0.0) && !log.shows(-1.0) && !log.shows(f64::INFINITY));

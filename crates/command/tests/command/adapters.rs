@@ -140,7 +140,7 @@ fn wgpu_s_own_variable_chooses_any_driver_of_the_list() {
 // As promised by `AdapterChoice` and docs/decisions/0027-which-adapter.md.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_name_goes_before_named_drivers_and_brings_back_none_that_they_hide() {
+fn a_name_outranks_drivers_but_reveals_no_hidden_ones() {
     let folder = folder("named_drivers");
     let all = listed(&folder, &[]);
     let [vulkan, gl, cpu] = ["vulkan", "gl", "cpu"].map(|backend| line_of(&all, backend));

@@ -51,7 +51,7 @@ fn one_point_is_measured_again_by_its_command() {
 }
 
 #[test]
-fn what_cannot_be_charted_is_refused_before_anything_is_measured() {
+fn invalid_subjects_are_refused_before_measuring() {
     let folder = folder("chart_refused");
     let rows = [
         (&["chart", "no_such_scene"][..], "no_such_scene"),

@@ -148,7 +148,7 @@ fn a_given_picture_is_judged_without_an_adapter() {
 }
 
 #[test]
-fn what_is_compared_is_said_and_shown() {
+fn comparisons_are_printed_and_drawn() {
     let folder = folder("compare");
     let grey = |name: &str, changed: [u8; 3]| {
         let mut picture = image::RgbImage::from_pixel(8, 6, image::Rgb([16; 3]));

@@ -118,12 +118,12 @@ pub(crate) struct Screen {
 impl Screen {
     pub(crate) fn open() -> Self {
         let given = std::env::var("DISPLAY").ok().filter(|name| !name.is_empty());
-        Self::of(|| given.map_or_else(Self::start, |name| (name, None)))
+        Self::from_server(|| given.map_or_else(Self::start, |name| (name, None)))
     }
 
     /// One that may be ended, whatever display is given.
     pub(crate) fn open_own() -> Self {
-        Self::of(Self::start)
+        Self::from_server(Self::start)
     }
 
     /// Ends the display, if it is the test's own, under whatever is on it.
@@ -135,7 +135,7 @@ impl Screen {
         }
     }
 
-    fn of(server: impl FnOnce() -> (String, Option<Child>)) -> Self {
+    fn from_server(server: impl FnOnce() -> (String, Option<Child>)) -> Self {
         let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let (name, server) = server();
         let (connection, number) = Self::connect(&name);

@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_is_no_polygon_gives_as_many_triangles() {
+    fn invalid_polygons_give_as_many_triangles() {
         let bow = polygon(&[[0., 0.], [1., 1.], [1., 0.], [0., 1.], [0.5, 3.0]]);
         let zigzag: Vec<Vec3> = (0..500).map(|i| Vec3::new((i * 37 % 101) as f32, (i * 53 % 89) as f32, 0.0)).collect();
         for points in [vec![Vec3::ZERO; 5], vec![Vec3::X, Vec3::Y, Vec3::X, Vec3::Y], bow, zigzag] {

@@ -163,7 +163,7 @@ fn asked(name: &str, otherwise: u64) -> u64 {
 }
 
 #[test]
-fn spoilt_files_are_refused_or_read_soundly() {
+fn corrupted_files_are_refused_or_valid() {
     let _alone = alone();
     let (seed, variants) = (asked("HALFWAY_SEED", 1), asked("HALFWAY_VARIANTS", 3000));
     for (name, format, sound) in corpus() {

@@ -239,7 +239,7 @@ fn planted_faults_are_found() {
 }
 
 #[test]
-fn position_errors_are_about_what_the_surfaces_are_apart() {
+fn position_errors_match_the_distance_of_the_surfaces() {
     for (name, mesh) in meshes() {
         if ["pieces", "slivers", "doubled", "one point in all"].contains(&name) {
             continue;
@@ -328,7 +328,7 @@ fn creases_and_planes_stay_as_they_are() {
 }
 
 #[test]
-fn what_cannot_be_coarser_is_left_as_it_is() {
+fn meshes_that_cannot_be_simplified_are_unchanged() {
     let meshes = [
         ("a triangle", vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![0, 1, 2]),
         ("points", vec![Vec3::ONE; 300], (0..300).collect()),
@@ -364,7 +364,7 @@ fn scale_does_not_matter_to_levels() {
 }
 
 #[test]
-fn the_same_mesh_has_the_same_levels_on_any_number_of_threads() {
+fn levels_do_not_depend_on_the_number_of_threads() {
     let [one, four] = [1, 4].map(|count| rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap());
     // One of many groups, and one of many pieces.
     for mesh in [shaken(&grid(150), 0.2), pieces(400)] {
@@ -375,6 +375,6 @@ fn the_same_mesh_has_the_same_levels_on_any_number_of_threads() {
 }
 
 #[test]
-fn making_levels_stops_when_it_is_told_to() {
+fn making_levels_can_be_stopped() {
     assert_eq!(grid(65).lod_hierarchy(&AtomicBool::new(true)), None);
 }

@@ -191,7 +191,7 @@ fn the_plugin_stands_alone() {
 }
 
 #[test]
-fn meshes_stay_when_the_plugin_comes_late_and_when_it_comes_again() {
+fn adding_the_mesh_plugin_again_keeps_meshes() {
     let triangles = |app: &App, handle| app.world().resource::<Assets<Mesh>>().get(handle).map(Mesh::triangle_count);
     let mut app = App::new();
     // Somebody had meshes before any plugin.

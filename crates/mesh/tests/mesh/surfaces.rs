@@ -36,7 +36,7 @@ fn check(name: &str, mesh: &Mesh) {
 }
 
 #[test]
-fn every_surface_keeps_the_promises() {
+fn every_surface_keeps_the_invariants() {
     let rows: Vec<(&str, Mesh, usize, usize, usize)> = vec![
         // Vertices, triangles, open edges.
         ("plane 1", Plane::default().into(), 4, 2, 4),

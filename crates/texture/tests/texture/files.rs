@@ -37,7 +37,7 @@ fn files_become_linear_light() {
 }
 
 #[test]
-fn what_cannot_be_an_image_is_refused_by_name() {
+fn invalid_images_are_refused_by_name() {
     let whole = png(RgbImage::from_fn(40, 40, |x, y| Rgb([x as u8 * 6, y as u8 * 6, (x * y) as u8])));
     for (bytes, says) in
         [(&b"not an image"[..], "note.png: is no image"), (&whole[..whole.len() / 2], "note.png: "), (&[], "note.png")]

@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_ties_two_files_is_seen() {
+    fn every_kind_of_use_is_seen() {
         let back = "pub struct Beta; pub fn f(_: crate::a::Alpha) {}";
         let rows = [
             ("use", "use crate::b::Beta; pub struct Alpha;"),
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn what_ties_nothing_is_no_circle() {
+    fn unrelated_files_form_no_circle() {
         let parent = "mod child; pub use child::Child; pub struct Parent;";
         let rows: [(&str, &str, &str); 5] = [
             ("to declare and to hand on", parent, "pub struct Child(super::Parent);"),

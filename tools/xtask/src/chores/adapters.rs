@@ -401,7 +401,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_cpu_draws_has_tests() {
+    fn cpu_tests_exist() {
         let path = root().join("tests").join(ON_THE_CPU.trim_end_matches("::").replace("::", "/")).with_extension("rs");
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         assert!(text.contains("#[test]") && text.contains("Stage::on_the_cpu("), "{ON_THE_CPU}");

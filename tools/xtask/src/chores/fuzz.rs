@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_fuzzer_prints_is_read() {
+    fn output_of_the_fuzzer_is_parsed() {
         let said = "INFO: Seed: 1\nDone 9 runs in 1 second(s)\nstat::number_of_executed_units: 54321\n\
                     stat::average_exec_per_sec:     5432\nstat::new_units_added:          7\n\
                     stat::slowest_unit_time_sec:    0\nstat::peak_rss_mb:              43\n";

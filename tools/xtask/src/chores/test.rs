@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_left_out_is_there() {
+    fn skipped_tests_exist() {
         let programs = test_programs(&root()).unwrap();
         for name in ABOUT_MACHINES.iter().chain(&BY_A_DRIVER) {
             assert!(programs.iter().any(|program| program == name), "{name} is no program of tests: {programs:?}");
