@@ -10,7 +10,7 @@ use halfway::render::AdapterChoice;
 use halfway_chart::filters::{FilterPlan, Filters};
 use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, FrontPlan, Fronts, Method, scenes};
 use halfway_chart::page::Page;
-use halfway_chart::timing::{Machine, TimedLook};
+use halfway_chart::timing::{Machine, TimedShading};
 use halfway_chart::{ChartError, Progress, Report};
 
 use crate::failure::Failure;
@@ -131,7 +131,7 @@ fn from_file(file: &Path) -> Result<ChartedScene, Failure> {
 fn s3() -> ChartedScene {
     let about = "400 spheres on a plane among 256 lights that move with every frame: the benchmark scene S3";
     let scene = BenchmarkScene::S3;
-    let look = TimedLook::Shaded(Shading::Phong);
+    let look = TimedShading::Shaded(Shading::Phong);
     let build = Box::new(move |app: &mut App, _| {
         app.add_plugins(Benchmark { scene, look, octahedra: false });
         Ok(())

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use halfway::prelude::*;
 use halfway::scene::{SceneError, SceneFile, Spawned, spawn};
 
+use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
-use crate::look::{LookArgs, SizeArgs};
 
 const EXPECTED: &str =
     "neither a scene that is known by a name nor a file that ends in .json, .smf, .obj, .gltf, .glb, .ply or .stl";
@@ -33,7 +33,7 @@ impl SceneInput {
     }
 
     /// Reads the scene, with the options of the command line.
-    pub(crate) fn read(args: &LookArgs) -> Result<Self, Failure> {
+    pub(crate) fn read(args: &DrawingArgs) -> Result<Self, Failure> {
         let mut input = Self::open(&args.input)?;
         let scene = &mut input.scene;
         if let Some(shading) = args.shading() {

@@ -9,16 +9,16 @@ use halfway::record::{Recording, ReferenceDrawing, record, record_with};
 use halfway::reference::Mode;
 use halfway::render::Adapter;
 
+use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
 use crate::input::SceneInput;
-use crate::look::{LookArgs, SizeArgs};
 use crate::progress::Progress;
 use crate::turntable::Turntable;
 
 #[derive(Args, Debug)]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
-    look: LookArgs,
+    drawing: DrawingArgs,
     /// The picture: .png or .exr; with --frames an animated PNG, or one file a frame if the name has a {}
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -58,7 +58,7 @@ impl Drawer {
         if args.reference {
             return Ok(Self::Reference(reference));
         }
-        Ok(Self::Adapter(args.look.adapter.choice().open()?))
+        Ok(Self::Adapter(args.drawing.adapter.choice().open()?))
     }
 
     fn app(&self, size: UVec2) -> App {
@@ -96,7 +96,7 @@ impl Drawer {
 }
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
-    let mut input = SceneInput::read(&args.look)?;
+    let mut input = SceneInput::read(&args.drawing)?;
     let size = input.resize(args.size);
     let recording = Recording {
         frames: args.frames.clone().unwrap_or(0..1),

@@ -9,16 +9,16 @@ use halfway::reference::metrics::{Bars, Scale, Verdict, difference, judge, judge
 use halfway::reference::{Image, Oracle};
 use halfway::render::RenderError;
 
+use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::{DIFFERENT, Failure, STOPPED};
 use crate::input::SceneInput;
-use crate::look::{LookArgs, SizeArgs};
 use crate::progress::Progress;
 use crate::{figures, picture};
 
 #[derive(Args, Debug)]
 pub(crate) struct VerifyArgs {
     #[command(flatten)]
-    look: LookArgs,
+    drawing: DrawingArgs,
     #[command(flatten)]
     size: SizeArgs,
     /// Draw where the 8-bit pictures differ, with a legend, into this PNG
@@ -36,11 +36,11 @@ pub(crate) struct VerifyArgs {
 }
 
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
-    let mut input = SceneInput::read(&args.look)?;
+    let mut input = SceneInput::read(&args.drawing)?;
     if let Some(file) = &args.picture {
         return judge_picture(args, input, file);
     }
-    let tolerance = args.look.tolerance.or(Tolerance::EXACT);
+    let tolerance = args.drawing.tolerance.or(Tolerance::EXACT);
     if tolerance.pixels > 0.0 {
         let pixels = tolerance.pixels;
         let advice =
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         eprintln!("note: judged with one sample a pixel, since adapters differ in where they take four");
     }
     input.scene.samples = 1;
-    let adapter = args.look.adapter.choice().open()?;
+    let adapter = args.drawing.adapter.choice().open()?;
     let device = adapter.describe();
     let bits = adapter.sub_pixel_bits()?;
     let mut app = App::new();

@@ -25,14 +25,14 @@ const MOST: u32 = 20;
 
 /// The shading of everything in a timed scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TimedLook {
+pub enum TimedShading {
     /// In the colour of its material alone: the cost of drawing without lighting.
     Constant,
     /// Lit.
     Shaded(Shading),
 }
 
-impl TimedLook {
+impl TimedShading {
     /// A material of this ambient and diffuse color with a white highlight of shininess 32; unlit if the look is
     /// constant.
     pub fn material(self, color: LinearRgba) -> Material {

@@ -1,7 +1,7 @@
 //! A benchmark scene as an App, ready to run.
 
 use halfway::prelude::*;
-use halfway_chart::timing::TimedLook;
+use halfway_chart::timing::TimedShading;
 
 use super::args::{BenchArgs, BenchShading};
 use crate::failure::Failure;
@@ -56,12 +56,12 @@ impl Timed {
 }
 
 /// Gives every object this look in place of its own.
-fn shade(world: &mut World, look: TimedLook) {
+fn shade(world: &mut World, look: TimedShading) {
     let objects: Vec<Entity> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
     for object in objects {
         let mut object = world.entity_mut(object);
         object.insert(look.shading());
-        if look == TimedLook::Constant {
+        if look == TimedShading::Constant {
             if let Some(mut material) = object.get_mut::<Material>() {
                 *material = unlit(&material);
             }

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use halfway::prelude::*;
-use halfway_chart::timing::TimedLook;
+use halfway_chart::timing::TimedShading;
 
 use crate::adapters::AdapterArgs;
+use crate::drawing::SizeArgs;
 use crate::failure::Failure;
-use crate::look::SizeArgs;
 use crate::scenery::BenchmarkScene;
 use crate::tolerance::ToleranceArgs;
 
@@ -105,12 +105,12 @@ impl BenchShading {
         if self == Self::ExactPhong { Tolerance::EXACT } else { said }
     }
 
-    pub(super) fn look(self) -> TimedLook {
+    pub(super) fn look(self) -> TimedShading {
         match self {
-            Self::Constant => TimedLook::Constant,
-            Self::Flat => TimedLook::Shaded(Shading::Flat),
-            Self::Gouraud => TimedLook::Shaded(Shading::Gouraud),
-            Self::Phong | Self::ExactPhong => TimedLook::Shaded(Shading::Phong),
+            Self::Constant => TimedShading::Constant,
+            Self::Flat => TimedShading::Shaded(Shading::Flat),
+            Self::Gouraud => TimedShading::Shaded(Shading::Gouraud),
+            Self::Phong | Self::ExactPhong => TimedShading::Shaded(Shading::Phong),
         }
     }
 }

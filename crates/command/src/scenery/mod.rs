@@ -26,7 +26,7 @@ use clap::ValueEnum;
 use halfway::prelude::*;
 use halfway_chart::front::Still;
 use halfway_chart::front::scenes::random;
-use halfway_chart::timing::TimedLook;
+use halfway_chart::timing::TimedShading;
 
 /// One of these scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -51,7 +51,7 @@ impl BenchmarkScene {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Benchmark {
     pub(crate) scene: BenchmarkScene,
-    pub(crate) look: TimedLook,
+    pub(crate) look: TimedShading,
     /// Spheres of S2 as octahedra, which keeps the work on 10,000 entities and removes that on their triangles.
     pub(crate) octahedra: bool,
 }
@@ -116,7 +116,7 @@ fn circle(frame: Res<FrameNumber>, mut lights: Query<(&Circling, &mut Transform)
 struct Scenery<'a, 'w, 's> {
     commands: &'a mut Commands<'w, 's>,
     meshes: &'a mut Assets<Mesh>,
-    look: TimedLook,
+    look: TimedShading,
 }
 
 impl Scenery<'_, '_, '_> {

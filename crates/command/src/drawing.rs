@@ -12,7 +12,7 @@ use crate::tolerance::ToleranceArgs;
 
 /// How the scene is drawn; options override the scene file.
 #[derive(Args, Clone, Debug)]
-pub(crate) struct LookArgs {
+pub(crate) struct DrawingArgs {
     /// A scene file (.json) or a model (.smf, .obj, .gltf, .glb, .ply, .stl)
     #[arg(value_name = "SCENE|MODEL")]
     pub(crate) input: PathBuf,
@@ -44,7 +44,7 @@ enum GivenShading {
     Retired,
 }
 
-impl LookArgs {
+impl DrawingArgs {
     /// The chosen shading. Prints a warning about a former one.
     pub(crate) fn shading(&self) -> Option<Shading> {
         self.shading.map(|given| match given {
@@ -118,7 +118,7 @@ mod tests {
     #[derive(Parser)]
     struct Line {
         #[command(flatten)]
-        look: LookArgs,
+        look: DrawingArgs,
     }
 
     #[test]
