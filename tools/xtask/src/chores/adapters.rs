@@ -49,7 +49,7 @@ const ABOUT_DRIVERS: [(&str, &[&str]); 15] = [
         &[
             "the_list_has_vulkan_opengl",
             "wgpu_s_own_variable_chooses",
-            "a_name_goes_before_named_drivers",
+            "a_name_outranks_drivers",
             "opengl_is_tried_before_giving_up",
             "a_machine_without_a_session",
         ],
