@@ -74,7 +74,7 @@ fn run(mut app: App) -> Result<(), Box<dyn Error>> {
     }
     if let Some(file) = argument("--headless").map(PathBuf::from) {
         let picture = PendingPicture::request(app.world())?.wait()?;
-        write_picture(&picture, &file, PictureFormat::of(&file, Some(8))?, Encoding::Srgb)?;
+        write_picture(&picture, &file, PictureFormat::from_path(&file, Some(8))?, Encoding::Srgb)?;
         println!("{}", file.display());
     }
     Ok(())

@@ -431,7 +431,7 @@ fn one_image_is_drawn_by_each_filter_at_once_as_by_itself() {
 }
 
 /// Means of a few texels far from where the sums begin: sums in f32 alone lose them
-/// (`sums_in_single_precision_lose_what_differences_need`).
+/// (`sums_in_single_precision_are_too_coarse`).
 #[test]
 fn sums_of_a_large_image_tell_two_texels_apart() {
     let value = |x: u32, y: u32| 0.7 + 0.1 * ((x * 131 + y * 71) % 17) as f32 / 16.0;

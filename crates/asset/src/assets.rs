@@ -8,6 +8,16 @@ use bevy_ecs::prelude::{ResMut, Resource};
 use crate::handle::{AssetId, Dropped, Handle};
 
 /// All assets of one type, as a resource of the app.
+///
+/// ```
+/// use halfway_asset::Assets;
+///
+/// let mut names = Assets::<String>::default();
+/// let teapot = names.add("teapot");
+/// names.insert(&teapot, "kettle").expect("the handle still exists");
+/// let all: Vec<&String> = names.iter().map(|(_, name)| name).collect();
+/// assert_eq!(all, ["kettle"]);
+/// ```
 #[derive(Resource)]
 pub struct Assets<T: Send + Sync + 'static> {
     slots: Vec<Slot<T>>,
@@ -15,7 +25,7 @@ pub struct Assets<T: Send + Sync + 'static> {
     dropped: Dropped,
 }
 
-/// A place for an asset. It is used again when the last handle is gone, by a new generation.
+/// A slot for an asset. It is reused after the last handle is dropped, with a new generation.
 struct Slot<T> {
     generation: u32,
     asset: Option<T>,
@@ -45,17 +55,17 @@ impl<T: Send + Sync + 'static> Assets<T> {
         self.slots.get(id.slot as usize).filter(|slot| slot.generation == id.generation)?.asset.as_ref()
     }
 
-    /// The asset, to be changed: everything that shows it shows the change.
+    /// The asset, mutably: every entity that shows it shows the change.
     pub fn get_mut(&mut self, id: impl Into<AssetId<T>>) -> Option<&mut T> {
         self.place(id.into())?.as_mut()
     }
 
-    /// Whether the asset is there.
+    /// Whether the asset exists.
     pub fn contains(&self, id: impl Into<AssetId<T>>) -> bool {
         self.get(id).is_some()
     }
 
-    /// Puts an asset in the place of another, or of one that was removed, and gives back what was there.
+    /// Replaces an asset, or one that was removed, and returns the old one.
     ///
     /// # Errors
     /// The last handle was dropped and the asset removed since, or it is the id of the default handle.
@@ -65,22 +75,22 @@ impl<T: Send + Sync + 'static> Assets<T> {
         Ok(place.replace(asset.into()))
     }
 
-    /// Takes an asset out. Its handles stand for none until another is [inserted](Self::insert).
+    /// Removes an asset. Its handles have none until another is [inserted](Self::insert).
     pub fn remove(&mut self, id: impl Into<AssetId<T>>) -> Option<T> {
         self.place(id.into())?.take()
     }
 
-    /// How many there are.
+    /// The number of assets.
     pub fn len(&self) -> usize {
         self.iter().count()
     }
 
-    /// Whether there are none.
+    /// Whether there are no assets.
     pub fn is_empty(&self) -> bool {
         self.iter().next().is_none()
     }
 
-    /// All of them, with their ids.
+    /// All assets, with their ids.
     pub fn iter(&self) -> impl Iterator<Item = (AssetId<T>, &T)> {
         let numbered = self.slots.iter().enumerate();
         numbered.filter_map(|(slot, Slot { generation, asset })| {
@@ -88,7 +98,8 @@ impl<T: Send + Sync + 'static> Assets<T> {
         })
     }
 
-    /// All of them, with their ids, to be changed.
+    /// All assets mutably, with their ids.
+    /// Removes assets without a handle. [`add_assets`] runs it before each update.
     pub fn iter_mut(&mut self) -> impl Iterator<Item = (AssetId<T>, &mut T)> {
         let numbered = self.slots.iter_mut().enumerate();
         numbered.filter_map(|(slot, Slot { generation, asset })| {
@@ -116,7 +127,7 @@ impl<T: Send + Sync + 'static> Assets<T> {
     }
 }
 
-/// No asset can be put in a place that no handle stands for.
+/// The error of inserting an asset under an id without a handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AssetGone {
     slot: u32,
@@ -135,11 +146,25 @@ impl fmt::Display for AssetGone {
 
 impl std::error::Error for AssetGone {}
 
-/// Gives an app [`Assets`] of a type, and has those removed in [`PreUpdate`] that no handle stands for any more.
+/// Adds [`Assets`] of a type to an app, and removes those without a handle in [`PreUpdate`].
 ///
-/// May be called late and more than once: assets that the app has already stay.
+/// May be called late and more than once: existing assets stay.
+///
+/// ```
+/// use bevy_app::App;
+/// use halfway_asset::{Assets, add_assets};
+///
+/// let mut app = App::new();
+/// add_assets::<String>(&mut app);
+/// let handle = app.world_mut().resource_mut::<Assets<String>>().add("bunny");
+/// app.update();
+/// assert_eq!(app.world().resource::<Assets<String>>().len(), 1);
+/// drop(handle);
+/// app.update();
+/// assert!(app.world().resource::<Assets<String>>().is_empty());
+/// ```
 pub fn add_assets<T: Send + Sync + 'static>(app: &mut App) {
-    /// Is there once the system is.
+    /// Marks that the system was added.
     #[derive(Resource)]
     struct Added<T: Send + Sync + 'static>(std::marker::PhantomData<fn() -> T>);
 
@@ -179,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slot_that_is_used_again_has_another_id() {
+    fn a_reused_slot_has_another_id() {
         let (mut app, [a, _b]) = app_with(["a", "b"]);
         let old = a.id();
         drop(a);
@@ -194,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn a_handle_outlives_its_asset_and_gets_another() {
+    fn a_removed_asset_can_be_replaced() {
         let (mut app, [a, _b]) = app_with(["a", "b"]);
         assert_eq!(assets(&mut app).remove(&a).as_deref(), Some("a"));
         app.update();
@@ -205,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn the_default_handle_stands_for_nothing() {
+    fn the_default_handle_has_no_asset() {
         let (mut app, _) = app_with(["a", "b"]);
         let none = Handle::<String>::default();
         assert!(assets(&mut app).insert(&none, "c").is_err());

@@ -1,13 +1,13 @@
-//! Handles, and the numbers that they stand for.
+//! Handles and ids of assets.
 
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::marker::PhantomData;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Which asset of a type: a number that is never given twice by the same [`Assets`](crate::Assets).
+/// The id of an asset of one type; the same [`Assets`](crate::Assets) never gives it twice.
 ///
-/// It keeps nothing alive; a [`Handle`] does.
+/// It does not keep the asset alive; a [`Handle`] does.
 pub struct AssetId<T> {
     pub(crate) slot: u32,
     pub(crate) generation: u32,
@@ -79,10 +79,19 @@ impl<T> From<&Handle<T>> for AssetId<T> {
 
 /// Keeps an asset alive: it stays in its [`Assets`](crate::Assets) until the last clone of its handle is dropped.
 ///
-/// Handles are equal when they stand for the same asset. The default stands for none.
+/// Handles are equal if they refer to the same asset. The default refers to none.
+///
+/// ```
+/// use halfway_asset::{Assets, Handle};
+///
+/// let mut names = Assets::<String>::default();
+/// let (a, b) = (names.add("bunny"), names.add("bunny"));
+/// assert!(a == a.clone() && a != b);
+/// assert_eq!(names.get(&Handle::default()), None);
+/// ```
 pub struct Handle<T> {
     id: AssetId<T>,
-    /// Shared by all clones; none in the default.
+    /// Shared by all clones; `None` in the default.
     lease: Option<Arc<Lease>>,
 }
 
@@ -91,7 +100,7 @@ impl<T> Handle<T> {
         Self { id, lease: Some(Arc::new(Lease { slot: id.slot, dropped: dropped.clone() })) }
     }
 
-    /// The number of the asset, which keeps nothing alive.
+    /// The id of the asset, which does not keep it alive.
     pub fn id(&self) -> AssetId<T> {
         self.id
     }
@@ -134,7 +143,7 @@ impl<T> fmt::Debug for Handle<T> {
 pub(crate) struct Dropped(Arc<Mutex<Vec<u32>>>);
 
 impl Dropped {
-    /// All of them; none is left.
+    /// Takes all slots out.
     pub(crate) fn take(&self) -> Vec<u32> {
         std::mem::take(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }

@@ -5,7 +5,7 @@ use halfway::reference::metrics::SizeMismatch;
 use halfway::render::RenderError;
 use thiserror::Error;
 
-/// A measurement that could not be made.
+/// Why a measurement failed.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ChartError {
@@ -15,7 +15,7 @@ pub enum ChartError {
     /// The oracle could not draw.
     #[error(transparent)]
     Oracle(#[from] OracleError),
-    /// Pictures of different sizes; the adapter drew what was not asked for.
+    /// Pictures of different sizes; the adapter drew another size than asked for.
     #[error(transparent)]
     Size(#[from] SizeMismatch),
     /// A scene cannot be set up, or not as asked.

@@ -1,9 +1,9 @@
-//! What shading costs and what it loses: error against time with its Pareto fronts, pages of known failures, and
-//! filters of images, measured and charted.
+//! Measures and charts the cost and the error of shading: error against time with its Pareto fronts, known failure
+//! modes, and texture filters.
 //!
-//! [`Report`] is everything that is measured of the project's scenes, [`front::Fronts`] the error and time of chosen
-//! scenes, [`filters::Filters`] what filters of images cost and lose. Each says what it found as [`page::Page`]s, which
-//! become HTML, SVG and Markdown.
+//! [`Report`] measures all of the project's scenes, [`front::Fronts`] the error and time of chosen scenes,
+//! [`filters::Filters`] the cost and the error of texture filters. Each makes [`page::Page`]s, which become HTML, SVG
+//! and Markdown.
 
 mod error;
 pub mod failures;

@@ -2,8 +2,8 @@
 
 use crate::figure::{Panel, Point, Series, Style};
 
-/// The places of the points (time, error) that no other point beats in both, the fastest first. Of equal ones the first
-/// stays.
+/// The indices of the points (time, error) that no other point dominates, the fastest first. Of equal points the first
+/// counts.
 pub(crate) fn front(points: &[(f64, f64)]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| {
@@ -19,8 +19,8 @@ pub(crate) fn front(points: &[(f64, f64)]) -> Vec<usize> {
     order
 }
 
-/// A panel of time and error: dominated points are pale, and a line in steps joins the front, since a time buys the
-/// least error of everything that takes no longer.
+/// A panel of time and error: dominated points are pale, and a line in steps joins the front, since each time allows
+/// the least error of everything that takes no longer.
 pub(crate) fn front_panel(title: impl Into<String>, mut series: Vec<Series>) -> Panel {
     series.retain(|series| !series.points.is_empty());
     let places: Vec<(usize, usize)> =
@@ -37,7 +37,7 @@ pub(crate) fn front_panel(title: impl Into<String>, mut series: Vec<Series>) -> 
         let corner = line.last().map(|last| Point { x: point.x, ..last.clone() });
         line.extend(corner.into_iter().chain([point]));
     }
-    // The front lies on top.
+    // The front is drawn on top.
     for series in &mut series {
         series.points.sort_by_key(|point| !point.faded);
     }
@@ -50,14 +50,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_front_is_what_nothing_beats() {
+    fn the_front_is_not_dominated() {
         assert_eq!(front(&[(1.0, 5.0), (2.0, 6.0), (1.5, 2.0), (3.0, 0.4)]), [0, 2, 3]);
         assert_eq!(front(&[(1.0, 1.0), (1.0, 1.0), (2.0, 1.0), (1.0, 2.0)]), [0], "of equal points one stays");
         assert!(front(&[]).is_empty());
     }
 
     #[test]
-    fn panels_fade_what_is_dominated_and_join_the_rest_in_steps() {
+    fn panels_fade_dominated_points_and_join_the_front() {
         let points = |all: &[(f64, f64)]| Series {
             name: "some".to_owned(),
             style: Style::gray(0),

@@ -1,4 +1,4 @@
-//! Everything that `halfway chart` measures of the project's own scenes.
+//! All measurements that `halfway chart` makes of the project's own scenes.
 
 use crate::error::ChartError;
 use crate::failures::{self, FailurePage};
@@ -6,19 +6,19 @@ use crate::front::{ChartedAdapter, ChartedScene, FrontPlan, Fronts, MeasuredOver
 use crate::page::{Page, Section};
 use crate::progress::Progress;
 
-/// What was found.
+/// The results.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// Error and time.
     pub fronts: Fronts,
-    /// Error and time of far lights and viewers.
+    /// Error and time of distant lights and viewers.
     pub over: Vec<MeasuredOver>,
-    /// Where methods fail.
+    /// The known failure modes.
     pub failures: Vec<FailurePage>,
 }
 
 impl Report {
-    /// The units of [`Progress`] that [`measure`](Self::measure) will report.
+    /// The units of [`Progress`] that [`measure`](Self::measure) reports.
     pub fn units(plan: &FrontPlan, scenes: &[ChartedScene], adapters: usize) -> u64 {
         plan.units(scenes, adapters) + MeasuredOver::units(plan, adapters) + failures::PAGES
     }

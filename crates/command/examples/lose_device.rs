@@ -9,7 +9,7 @@ use std::sync::Mutex;
 use halfway::prelude::*;
 use halfway::render::{Gpu, SurfaceLost};
 
-/// Lines that have come and are not yet done.
+/// Lines that have arrived and are not yet handled.
 static LINES: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 fn main() -> AppExit {
@@ -19,7 +19,7 @@ fn main() -> AppExit {
         }
     });
     let mut app = App::new();
-    // Levels of detail would come in beside the frames, and one scene would have two pictures.
+    // Levels of detail would arrive beside the frames, and one scene would have two pictures.
     app.insert_resource(ViewTolerance(Tolerance::EXACT));
     app.add_plugins(HalfwayPlugins).add_systems(Startup, scene).add_systems(Update, lose);
     if std::env::args().any(|argument| argument == "--update-first") {

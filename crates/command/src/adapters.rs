@@ -8,8 +8,8 @@ use crate::failure::Failure;
 
 #[derive(Args, Clone, Debug)]
 pub(crate) struct AdapterArgs {
-    /// What draws: cpu, or cpu:avx2, say, for the CPU without a driver; or a graphics adapter, by a part of its name or
-    /// its backend's, as `halfway adapters` lists them, or both, such as vulkan:llvmpipe or gpu for any of these
+    /// The renderer: cpu, or cpu:avx2, say, for the CPU without a driver; or a graphics adapter, by a part of its name
+    /// or its backend's, as `halfway adapters` lists them, or both, such as vulkan:llvmpipe or gpu for any of these
     /// [default: `HALFWAY_ADAPTER`, then `WGPU_BACKEND`, `WGPU_ADAPTER_NAME` and `VK_DRIVER_FILES`; else hardware, and
     /// without it the CPU]
     #[arg(id = "adapter", long = "adapter", value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]

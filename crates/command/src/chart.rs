@@ -10,7 +10,7 @@ use halfway::render::AdapterChoice;
 use halfway_chart::filters::{FilterPlan, Filters};
 use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, FrontPlan, Fronts, Method, scenes};
 use halfway_chart::page::Page;
-use halfway_chart::timing::{Machine, TimedLook};
+use halfway_chart::timing::{Machine, TimedShading};
 use halfway_chart::{ChartError, Progress, Report};
 
 use crate::failure::Failure;
@@ -20,18 +20,18 @@ use crate::scenery::{Benchmark, BenchmarkScene};
 
 #[derive(Args, Debug)]
 pub(crate) struct ChartArgs {
-    /// What is charted: a scene file, a model, or a scene of the project's by its name (sphere, teapot,
-    /// teapot-by-phong, scan, s3) [default: all of the project's, and with them far lights and viewers, and where
-    /// methods fail]
+    /// The subject: a scene file, a model, or a scene of the project's by its name (sphere, teapot,
+    /// teapot-by-phong, scan, s3) [default: all of the project's, and with them distant lights and viewers, and known
+    /// failure modes]
     #[arg(value_name = "SCENE|MODEL")]
     inputs: Vec<PathBuf>,
-    /// The folder for the page and what belongs to it
+    /// The folder for the page and its files
     #[arg(short, long, value_name = "FOLDER", default_value = "out/chart")]
     output: PathBuf,
     /// Fewer methods, details, rounds and pixels
     #[arg(long)]
     quick: bool,
-    /// Only what filters of images cost and lose; the page is filters.html
+    /// Only the cost and the error of texture filters; the page is filters.html
     #[arg(long, conflicts_with_all = ["inputs", "small_chart", "method", "detail", "adapter"])]
     filters: bool,
     /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer; several times
@@ -41,8 +41,7 @@ pub(crate) struct ChartArgs {
     /// Only this detail, by the name that the page gives it: a number of cells, 1-of-16 or full, say
     #[arg(long, value_name = "NAME")]
     detail: Option<String>,
-    /// What draws, as `halfway adapters` lists them; several times for several [default: what the other commands draw
-    /// with]
+    /// The renderer, as `halfway adapters` lists them; several times for several [default: that of the other commands]
     #[arg(long = "adapter", value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
     adapters: Vec<String>,
     /// Also write the fronts of sphere, teapot and scan in small, an SVG file
@@ -80,7 +79,7 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     write(args, &pages)
 }
 
-/// Writes the pages with what belongs to them, and the tables of the first.
+/// Writes the pages with their files, and the tables of the first.
 fn write(args: &ChartArgs, pages: &[Page]) -> Result<(), Failure> {
     for (name, content) in pages.iter().flat_map(Page::files) {
         write_and_tell(&args.output.join(name), &content)?;
@@ -91,7 +90,7 @@ fn write(args: &ChartArgs, pages: &[Page]) -> Result<(), Failure> {
     }
 }
 
-/// The scenes that the command line means.
+/// The scenes of the command line.
 fn charted(inputs: &[PathBuf]) -> Result<Vec<ChartedScene>, Failure> {
     let mut ours = scenes::all();
     ours.push(s3());
@@ -102,20 +101,20 @@ fn charted(inputs: &[PathBuf]) -> Result<Vec<ChartedScene>, Failure> {
     for input in inputs {
         match ours.iter().position(|scene| Path::new(&scene.name) == input) {
             Some(place) => all.push(ours.remove(place)),
-            None => all.push(of_file(input)?),
+            None => all.push(from_file(input)?),
         }
     }
     Ok(all)
 }
 
 /// A scene file or a model.
-fn of_file(file: &Path) -> Result<ChartedScene, Failure> {
+fn from_file(file: &Path) -> Result<ChartedScene, Failure> {
     let input = SceneInput::open(file)?;
     let size = UVec2::from_array(input.scene.size);
-    // What is wrong with it is said now, and not once measuring has begun.
+    // Errors are reported now, before measuring begins.
     input.spawn(App::new().add_plugins(HalfwayPlugins::reference()))?;
     let about = format!("the scene of {}, at its first moment", input.name());
-    let scene = ChartedScene::of_meshes(
+    let scene = ChartedScene::from_meshes(
         &file.to_string_lossy(),
         &about,
         Box::new(move |app, _| {
@@ -132,15 +131,15 @@ fn of_file(file: &Path) -> Result<ChartedScene, Failure> {
 fn s3() -> ChartedScene {
     let about = "400 spheres on a plane among 256 lights that move with every frame: the benchmark scene S3";
     let scene = BenchmarkScene::S3;
-    let look = TimedLook::Shaded(Shading::Phong);
+    let look = TimedShading::Shaded(Shading::Phong);
     let build = Box::new(move |app: &mut App, _| {
         app.add_plugins(Benchmark { scene, look, octahedra: false });
         Ok(())
     });
-    ChartedScene { size: UVec2::new(640, 360), ..ChartedScene::of_meshes("s3", about, build) }
+    ChartedScene { size: UVec2::new(640, 360), ..ChartedScene::from_meshes("s3", about, build) }
 }
 
-/// Whether every name of the command line is one of something that can be measured.
+/// Checks that every name of the command line is one of something that can be measured.
 fn check_filter(plan: &FrontPlan, scenes: &[ChartedScene]) -> Result<(), Failure> {
     for scene in scenes {
         let known = plan.methods_of(scene).len();
@@ -175,7 +174,7 @@ fn write_and_tell(file: &Path, content: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Measures beside a bar on standard error.
+/// Measures with a progress bar on standard error.
 fn with_progress<T>(
     units: u64,
     measure: impl FnOnce(&mut Progress<'_>) -> Result<T, ChartError>,

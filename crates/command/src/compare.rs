@@ -16,14 +16,14 @@ use crate::{figures, picture};
 
 #[derive(Args, Debug)]
 pub(crate) struct CompareArgs {
-    /// The picture that is measured: a PNG of 8 or 16 bits, or an EXR
+    /// The actual picture: a PNG of 8 or 16 bits, or an EXR
     a: PathBuf,
-    /// The picture that is expected
+    /// The expected picture
     b: PathBuf,
     /// Draw where they differ, with a legend, into this PNG
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The background's linear intensities: what has this colour, as 8 bits tell colours apart, is covered by nothing
+    /// The background's linear intensities: pixels of this colour, compared in 8 bits, are covered by nothing
     /// [default: the colour that the four corners share; where they do not, all pixels count]
     #[arg(long, value_name = "R,G,B", value_parser = parse_background)]
     background: Option<[f64; 3]>,
@@ -65,18 +65,18 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
     }
 }
 
-/// A picture as its file has it, of which some rows at a time become intensities: the largest would take 6 GB as those.
+/// A picture as decoded, of which some rows at a time become intensities: the largest would take 6 GB as those.
 struct Decoded {
     picture: DynamicImage,
     encoding: Encoding,
     background: Option<Background>,
 }
 
-/// What covers nothing.
+/// The color of the background.
 enum Background {
-    /// What has exactly these intensities.
+    /// Exactly these intensities.
     Exactly([f64; 3]),
-    /// What has these bytes, as bytes.
+    /// These bytes, after rounding.
     AsBytes([u8; 3]),
 }
 
@@ -119,7 +119,7 @@ impl PictureRows for Decoded {
     }
 }
 
-/// Tells both pictures what they cover, where that can be told.
+/// Finds the background of both pictures, where possible.
 fn tell_apart(a: &mut Decoded, b: &mut Decoded, background: Option<[f64; 3]>) {
     if let Some(background) = background {
         let bytes = bytes_of(background, a.encoding);

@@ -20,11 +20,12 @@ pub(crate) struct ConvertArgs {
     /// Read files that the model refers to outside its own folder, too
     #[arg(long)]
     outside: bool,
-    /// Make vertices one that are equal in everything; with a DISTANCE those no further apart, whatever else they have
+    /// Merge vertices that are equal in everything; with a DISTANCE those no further apart, whatever their attributes
     #[arg(long, value_name = "DISTANCE", num_args = 0..=1, require_equals = true, default_missing_value = EQUAL)]
     #[arg(value_parser = parse_weld)]
     weld: Option<Weld>,
-    /// Leave out degenerate and duplicate triangles and unused vertices; wind what is left alike, closed pieces outward
+    /// Drop degenerate and duplicate triangles and unused vertices; orient the others consistently, closed pieces
+    /// outward
     #[arg(long)]
     repair: bool,
     /// Cut each triangle into four, N times over: in place, or to the smooth surface of Loop
@@ -39,13 +40,13 @@ pub(crate) struct ConvertArgs {
     /// Make new normals: one a face, a mean by these weights, or a mean that stops where faces differ by more degrees
     #[arg(long, value_name = "keep|face|uniform|area|angle|max|creased=DEGREES", value_parser = parse_normals)]
     normals: Option<Normals>,
-    /// Write vertices as integers of 16 bits, in about 60 % of the room where the mesh is large; .glb only
+    /// Write vertices as integers of 16 bits, which makes large meshes about 40 % smaller; .glb only
     #[arg(long)]
     quantise: bool,
 }
 
 pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
-    let progress = Progress::of_bytes();
+    let progress = Progress::for_bytes();
     let options = LoadOptions { outside: args.outside };
     let mut model =
         load_with(&args.input, options, &mut |at| progress.bytes(at.done, at.of)).map_err(|error| match error {
@@ -73,9 +74,9 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Takes the steps that were asked for, in the order of their options.
+/// Takes the chosen steps, in the order of their options.
 fn change(args: &ConvertArgs, model: &mut Model) -> Result<(), Failure> {
-    let mut meshes = Meshes::of(model);
+    let mut meshes = Meshes::from_model(model);
     if let Some(weld) = args.weld {
         meshes.weld(weld);
     }
@@ -98,7 +99,7 @@ fn change(args: &ConvertArgs, model: &mut Model) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What `--weld` has for a distance where none is given.
+/// The value of `--weld` without a distance.
 const EQUAL: &str = "equal";
 
 fn parse_weld(text: &str) -> Result<Weld, String> {

@@ -6,13 +6,13 @@ use std::error::Error;
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub(crate) code: u8,
-    /// What is still to be said about it.
+    /// The message still to be printed.
     pub(crate) error: Option<Box<dyn Error>>,
 }
 
-/// The exit code of pictures that differ by more than they may.
+/// The exit code of pictures that differ by more than allowed.
 pub(crate) const DIFFERENT: u8 = 4;
-/// The exit code of work that Ctrl-C or SIGTERM stopped, as shells have it for the first.
+/// The exit code of work that Ctrl-C or SIGTERM stopped, as in shells for the first.
 pub(crate) const STOPPED: u8 = 130;
 
 impl Failure {
@@ -20,13 +20,13 @@ impl Failure {
         Self { code, error: Some(error.into()) }
     }
 
-    /// One that has been told where it happened.
+    /// A failure whose message was already printed.
     pub(crate) fn said(code: u8) -> Self {
         Self { code, error: None }
     }
 }
 
-/// Input that cannot be used is exit code 2.
+/// Bad input has exit code 2.
 macro_rules! bad_input {
     ($($error:ty),*) => {
         $(impl From<$error> for Failure {

@@ -27,7 +27,7 @@ pub(crate) fn comparison(it: &Comparison) -> Value {
     })
 }
 
-/// How a drawn picture did.
+/// Every figure of a verdict.
 pub(crate) fn verdict(it: &Verdict) -> Value {
     json!({
         "most": it.most,
@@ -58,7 +58,7 @@ fn statistics(it: &Statistics) -> Value {
     })
 }
 
-/// By their shares in per cent.
+/// Percentiles by their percentages.
 pub(crate) fn percentiles(values: [f64; 4]) -> Value {
     let named = PERCENTILES.iter().zip(values).map(|(share, value)| (share.to_string(), json!(value)));
     named.collect::<Map<_, _>>().into()

@@ -1,4 +1,4 @@
-//! The scene that the command line means.
+//! The scene of the command line.
 
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use halfway::prelude::*;
 use halfway::scene::{SceneError, SceneFile, Spawned, spawn};
 
+use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
-use crate::look::{LookArgs, SizeArgs};
 
 const EXPECTED: &str =
     "neither a scene that is known by a name nor a file that ends in .json, .smf, .obj, .gltf, .glb, .ply or .stl";
 
-/// A scene with the folder that its paths start from.
+/// A scene with the folder of its relative paths.
 pub(crate) struct SceneInput {
     pub(crate) scene: SceneFile,
     base_dir: PathBuf,
@@ -32,8 +32,8 @@ impl SceneInput {
         Ok(Self { scene, base_dir: folder.to_owned(), file: file.to_owned(), is_scene, warned })
     }
 
-    /// The same with what the command line says.
-    pub(crate) fn read(args: &LookArgs) -> Result<Self, Failure> {
+    /// Reads the scene, with the options of the command line.
+    pub(crate) fn read(args: &DrawingArgs) -> Result<Self, Failure> {
         let mut input = Self::open(&args.input)?;
         let scene = &mut input.scene;
         if let Some(shading) = args.shading() {
@@ -57,8 +57,8 @@ impl SceneInput {
         Ok(input)
     }
 
-    /// The size of the picture in pixels: what the command line says, or the scene's. A camera that frames everything
-    /// has to know the picture's shape, so the scene has it then.
+    /// The size of the picture in pixels: the command line's, or the scene's. A camera that frames everything needs the
+    /// picture's shape, so the scene gets it.
     pub(crate) fn resize(&mut self, args: SizeArgs) -> UVec2 {
         let size = args.size.unwrap_or(UVec2::from_array(self.scene.size));
         self.scene.size = size.to_array();
@@ -70,7 +70,7 @@ impl SceneInput {
         self.file.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// Puts the scene into the App's world, and its warnings, once, on standard error.
+    /// Spawns the scene into the App's world, and prints its warnings, once, on standard error.
     pub(crate) fn spawn(&self, app: &mut App) -> Result<Spawned, Failure> {
         let spawned = spawn(&self.scene, &self.base_dir, app.world_mut()).map_err(|error| self.failure(error))?;
         if !self.warned.replace(true) {
@@ -79,11 +79,11 @@ impl SceneInput {
         Ok(spawned)
     }
 
-    /// What keeps a model from being shown is the model's own error; in a scene file it is one of that file's keys.
+    /// The failure for an error: a model's own error; in a scene file it is one of that file's keys.
     fn failure(&self, error: SceneError) -> Failure {
         match error {
             SceneError::Model { source, .. } if !self.is_scene => source.into(),
-            // The only key that a model's name makes.
+            // A model's name makes only this key.
             SceneError::Value { key, .. } if !self.is_scene && key == "objects[0].mesh.path" => {
                 format!("{}: {EXPECTED}", self.file.display()).into()
             }

@@ -1,4 +1,4 @@
-//! The `halfway` command: scenes and models to pictures, to a window, to figures.
+//! The `halfway` command: draws scenes and models into pictures and windows, and measures them.
 
 mod adapters;
 #[cfg(feature = "measure")]
@@ -7,11 +7,11 @@ mod bench;
 mod chart;
 mod compare;
 mod convert;
+mod drawing;
 mod failure;
 mod figures;
 mod info;
 mod input;
-mod look;
 mod picture;
 mod progress;
 mod render;
@@ -52,46 +52,46 @@ enum Command {
     Render(render::RenderArgs),
     /// Show a scene or a model in a window
     ///
-    /// Left drag turns, right drag pans, the wheel zooms, Home resets; 1, 2, 3 choose flat, Gouraud and Phong shading, T
-    /// the steps of the tolerance, B the reflectance, I the intensity policy; Escape or Q closes.
+    /// Left drag turns, right drag pans, the wheel zooms, Home resets; 1, 2, 3 choose flat, Gouraud and Phong shading,
+    /// T the steps of the tolerance, B the reflectance, I the intensity policy; Escape or Q closes.
     #[cfg(feature = "window")]
     View(view::ViewArgs),
-    /// Say how far one picture is from another, and draw where
+    /// Measure the difference between two pictures, and draw it
     ///
-    /// Figures are of the errors of A, with B as what is expected, on the pixels that both cover. Exit code 4 where a
-    /// pixel differs by more than --max allows.
+    /// Figures are of the errors of A, with B as expected, on the pixels that both cover. Exit code 4 if a pixel
+    /// differs by more than --max allows.
     Compare(compare::CompareArgs),
     /// Draw a scene with the adapter and with the reference renderer, and judge the one by the other
     ///
-    /// Pixels on edges, where rounding decides which side is seen, are told apart. Exit code 4 where another differs by
-    /// more than --max allows.
+    /// Pixels on edges, where rounding decides which side is visible, are judged separately. Exit code 4 if another
+    /// differs by more than --max allows.
     Verify(verify::VerifyArgs),
-    /// Print what a model holds, and what is wrong with it
+    /// Print the contents of a model, and its problems
     Info(info::InfoArgs),
     /// Write a model in another format, mended, refined, simplified or with other normals; print what is lost
     ///
     /// The steps asked for are taken in the order in which their options are listed here, on each mesh by itself.
     /// Lengths are in the units of the file's meshes, before a glTF node scales them.
     Convert(convert::ConvertArgs),
-    /// Time a benchmark scene in every shading, beside a constant colour; or what features cost
+    /// Time a benchmark scene in every shading, relative to a constant colour; or the cost of features
     #[cfg(feature = "measure")]
     Bench(bench::BenchArgs),
-    /// Chart error against time of every method on a scene, and say what to choose; or of all scenes of the project's
+    /// Chart error against time of every method on a scene, with a recommendation; or of all scenes of the project's
     ///
     /// Writes a page that opens offline, index.html, and beside it chart.json and drawings. Each file appears only when
     /// it is complete.
     #[cfg(feature = "measure")]
     Chart(chart::ChartArgs),
-    /// List what can draw, graphics adapters and the CPU, the one that is used first
+    /// List the renderers, graphics adapters and the CPU, the default first
     Adapters,
     /// Print the JSON schema of scene files
     Schema,
 }
 
-/// Rust programs go on when nobody reads their output any more, until printing panics. With the system's own way back,
-/// `halfway info … | head` ends quietly.
+/// By default, Rust programs continue when their output is closed, until printing panics. With the signal's default
+/// action, `halfway info … | head` ends quietly.
 #[cfg_attr(unix, expect(unsafe_code, reason = "a signal's default action is set, and no handler that could race"))]
-fn end_with_the_reader() {
+fn restore_sigpipe() {
     #[cfg(unix)]
     // SAFETY: both arguments are constants that `signal` documents, and the default action runs no code of this
     // process.
@@ -105,13 +105,13 @@ fn main() -> ExitCode {
         .format(|line, record| writeln!(line, "{}: {}", record.level().as_str().to_lowercase(), record.args()))
         .init();
     let command = Cli::parse().command;
-    // A window's connection to its display must not end it so.
+    // A window's connection to its display must not end the process.
     #[cfg(feature = "window")]
     let has_window = matches!(command, Command::View(_));
     #[cfg(not(feature = "window"))]
     let has_window = false;
     if !has_window {
-        end_with_the_reader();
+        restore_sigpipe();
     }
     let result = match command {
         Command::Render(args) => render::run(&args),

@@ -11,11 +11,11 @@ use image::{DynamicImage, Limits};
 
 use crate::failure::Failure;
 
-/// Reads a PNG or an EXR as it is; of an animation it is the first frame.
+/// Reads a PNG or an EXR without conversion; of an animation, its first frame.
 pub(crate) fn decoded(file: &Path) -> Result<DynamicImage, Failure> {
     let name = file.display().to_string();
     let unread = |error| format!("{name}: cannot be read: {error}");
-    // Asked before it is opened: opening a pipe waits for its other end.
+    // Checked before it is opened: opening a pipe waits for its other end.
     if !std::fs::metadata(file).map_err(unread)?.is_file() {
         return Err(format!("{name}: not a regular file; expected a PNG or EXR").into());
     }
@@ -24,7 +24,7 @@ pub(crate) fn decoded(file: &Path) -> Result<DynamicImage, Failure> {
     picture.map_err(|error| format!("{error}; expected a PNG or EXR").into())
 }
 
-/// The largest pictures that are drawn, in the format that takes most: four channels of 32 bits.
+/// The limits of the largest pictures that can be drawn, in the largest format: four channels of 32 bits.
 fn limits() -> Limits {
     const MOST: u32 = SceneFile::MAX_SIDE;
     let mut limits = Limits::default();
@@ -33,10 +33,10 @@ fn limits() -> Limits {
     limits
 }
 
-/// Writes a picture that people look at.
+/// Writes a picture for display.
 pub(crate) fn write(file: &Path, picture: image::RgbImage) -> Result<(), Failure> {
     use halfway::output::{PictureFormat, write_picture};
-    let format = PictureFormat::of(file, Some(8))?;
+    let format = PictureFormat::from_path(file, Some(8))?;
     let picture = Picture::Byte(DynamicImage::from(picture).into_rgba8());
     Ok(write_picture(&picture, file, format, Encoding::Srgb)?)
 }

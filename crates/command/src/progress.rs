@@ -1,4 +1,4 @@
-//! How far long work is, and signals to stop it.
+//! Progress of long work, and signals that stop it.
 
 use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
@@ -10,9 +10,9 @@ use halfway::record::Continue;
 
 use crate::failure::STOPPED;
 
-/// A [`Bar`], and whether Ctrl-C or SIGTERM asked for the end.
+/// A [`Bar`], and whether Ctrl-C or SIGTERM was received.
 ///
-/// The first of them ends the work in good order, so that no half file is left; a second one ends it at once.
+/// The first signal ends the work in good order, so that no partial file is left; a second one ends it at once.
 pub(crate) struct Progress {
     bar: Bar,
     frames: u32,
@@ -20,23 +20,23 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Of whole frames; no bar for a single one.
-    pub(crate) fn of_frames(frames: u32) -> Self {
+    /// For whole frames; no bar for a single one.
+    pub(crate) fn for_frames(frames: u32) -> Self {
         let bar = if frames < 2 { Bar::hidden() } else { Bar::new() };
         Self { bar, frames, stop: stop_on_signals() }
     }
 
-    /// Of the tiles of a number of frames.
-    pub(crate) fn of_tiles(frames: u32) -> Self {
+    /// For the tiles of a number of frames.
+    pub(crate) fn for_tiles(frames: u32) -> Self {
         Self { bar: Bar::new(), frames, stop: stop_on_signals() }
     }
 
-    /// Of the bytes of a file.
-    pub(crate) fn of_bytes() -> Self {
-        Self::of_tiles(1)
+    /// For the bytes of a file.
+    pub(crate) fn for_bytes() -> Self {
+        Self::for_tiles(1)
     }
 
-    /// So many frames are done.
+    /// Reports finished frames.
     pub(crate) fn frame(&self, done: u32) -> Continue {
         self.bar.show(done.into(), self.frames.into(), "");
         self.going_on()
@@ -47,12 +47,12 @@ impl Progress {
         if self.is_stopped() { Continue::No } else { Continue::Yes }
     }
 
-    /// N of the M tiles of frame `index` are done.
+    /// Reports that `done` of the `of` tiles of frame `index` are finished.
     pub(crate) fn tile(&self, index: u32, done: u32, of: u32) -> ControlFlow<()> {
         self.part(u64::from(of) * u64::from(index) + u64::from(done), u64::from(of) * u64::from(self.frames))
     }
 
-    /// N bytes of M are read.
+    /// Reports that `done` of `of` bytes are read.
     pub(crate) fn bytes(&self, done: u64, of: u64) -> ControlFlow<()> {
         self.part(done, of)
     }
@@ -67,13 +67,12 @@ impl Progress {
     }
 }
 
-/// A line on standard error that says how far work is; it is cleared at the end. Nothing is shown where standard error is
-/// no terminal.
+/// A progress line on standard error, cleared at the end. Nothing is shown if standard error is not a terminal.
 pub(crate) struct Bar(Option<Mutex<Shown>>);
 
 struct Shown {
     begun: Instant,
-    /// When the line was written last.
+    /// The time of the last update.
     written: Option<Instant>,
     done: u64,
 }
@@ -88,7 +87,7 @@ impl Bar {
         Self(None)
     }
 
-    /// Shows that `done` of `of` are done, and what is being done. Ten times a second are enough.
+    /// Shows that `done` of `of` are finished, and the current work. Updates at most ten times a second.
     pub(crate) fn show(&self, done: u64, of: u64, doing: &str) {
         let Some(shown) = &self.0 else { return };
         let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);
@@ -110,7 +109,7 @@ impl Drop for Bar {
     }
 }
 
-/// Such as `[#####               ]  25 %, 0:30 left: s1`.
+/// For example `[#####               ]  25 %, 0:30 left: s1`.
 fn line(done: u64, of: u64, elapsed: Duration, doing: &str) -> String {
     const WIDTH: usize = 20;
     let share = (done as f64 / of.max(1) as f64).min(1.0);
@@ -130,7 +129,7 @@ fn stop_on_signals() -> Arc<AtomicBool> {
     let stop = STOP.get_or_init(|| {
         let stop = Arc::new(AtomicBool::new(false));
         let asked = Arc::clone(&stop);
-        // Where a handler cannot be set the signal ends the process, as it always did.
+        // Without a handler the signal ends the process, as by default.
         let _ = ctrlc::set_handler(move || {
             if asked.swap(true, Ordering::Relaxed) {
                 std::process::exit(STOPPED.into());

@@ -9,17 +9,17 @@ use halfway::record::{Recording, ReferenceDrawing, record, record_with};
 use halfway::reference::Mode;
 use halfway::render::Adapter;
 
+use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
 use crate::input::SceneInput;
-use crate::look::{LookArgs, SizeArgs};
 use crate::progress::Progress;
 use crate::turntable::Turntable;
 
 #[derive(Args, Debug)]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
-    look: LookArgs,
-    /// The picture: .png or .exr; with --frames an animated PNG, or one file a frame where the name has a {}
+    drawing: DrawingArgs,
+    /// The picture: .png or .exr; with --frames an animated PNG, or one file a frame if the name has a {}
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
@@ -30,14 +30,13 @@ pub(crate) struct RenderArgs {
     /// Bits a channel: 8 or 16 in a PNG, 32 in an EXR [default: 8; 32]
     #[arg(long)]
     bits: Option<u32>,
-    /// Also put up to 16 of the frames, small, on one PNG
+    /// Also write a contact sheet of up to 16 of the frames, a PNG
     #[arg(long, value_name = "FILE")]
     contact_sheet: Option<PathBuf>,
     /// Draw with the reference renderer: every pixel in 64-bit arithmetic on the CPU, without a graphics adapter
     #[arg(long, conflicts_with = "adapter")]
     reference: bool,
-    /// Draw spheres, teapots and other surfaces that are known by formula as they are, and not the triangles that stand
-    /// for them
+    /// Draw spheres, teapots and other surfaces that are known by formula exactly, in place of their triangles
     #[arg(long, requires = "reference")]
     surface: bool,
     /// N × N samples a pixel, 1 to 16 [default: 1; 2 where the scene has four samples]
@@ -45,7 +44,7 @@ pub(crate) struct RenderArgs {
     supersample: Option<u32>,
 }
 
-/// What draws the frames.
+/// The renderer of the frames.
 enum Drawer {
     Adapter(Adapter),
     Reference(ReferenceDrawing),
@@ -59,7 +58,7 @@ impl Drawer {
         if args.reference {
             return Ok(Self::Reference(reference));
         }
-        Ok(Self::Adapter(args.look.adapter.choice().open()?))
+        Ok(Self::Adapter(args.drawing.adapter.choice().open()?))
     }
 
     fn app(&self, size: UVec2) -> App {
@@ -80,11 +79,11 @@ impl Drawer {
         let frames = recording.frames.len() as u32;
         match self {
             Self::Adapter(_) => {
-                let progress = Progress::of_frames(frames);
+                let progress = Progress::for_frames(frames);
                 record(app, recording, |done, _| progress.frame(done))?;
             }
             Self::Reference(drawing) => {
-                let progress = Progress::of_tiles(frames);
+                let progress = Progress::for_tiles(frames);
                 let draw = |app: &mut App, frame: halfway::record::FrameToDraw| {
                     let index = frame.number - recording.frames.start;
                     drawing.picture(app, frame, &|done, of| progress.tile(index, done, of))
@@ -97,7 +96,7 @@ impl Drawer {
 }
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
-    let mut input = SceneInput::read(&args.look)?;
+    let mut input = SceneInput::read(&args.drawing)?;
     let size = input.resize(args.size);
     let recording = Recording {
         frames: args.frames.clone().unwrap_or(0..1),

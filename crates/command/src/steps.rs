@@ -1,19 +1,19 @@
-//! What `halfway convert` does to meshes on the way, each step with a line that says what it did.
+//! The steps of `halfway convert` on meshes, each with a line about its result.
 
 use std::collections::HashMap;
 
 use halfway::mesh::{Mesh, MeshError, Model, NormalReport, Normals, Part, RepairReport, Subdivision, Weld, WeldReport};
 
-/// The meshes of a model, each once however many parts show it; counted as often as it is shown.
+/// The meshes of a model, each once however many parts show it; counted once for each part.
 pub(crate) struct Meshes {
-    /// With the parts that show it.
+    /// Each mesh with the parts that show it.
     meshes: Vec<(Mesh, Vec<usize>)>,
     /// How many parts had tangents.
     tangents: usize,
 }
 
 impl Meshes {
-    pub(crate) fn of(model: &Model) -> Self {
+    pub(crate) fn from_model(model: &Model) -> Self {
         let mut meshes: Vec<(Mesh, Vec<usize>)> = Vec::new();
         let mut numbers = HashMap::new();
         for (i, part) in model.parts.iter().enumerate() {
@@ -27,7 +27,7 @@ impl Meshes {
         Self { tangents: with_tangents(model), meshes }
     }
 
-    /// Gives the parts their meshes; those that have none any more are left out.
+    /// Gives the parts their meshes; parts without a mesh are dropped.
     pub(crate) fn put_into(self, model: &mut Model) {
         let mut parts: Vec<_> = std::mem::take(&mut model.parts).into_iter().map(Some).collect();
         let mut changed = Vec::new();
@@ -53,7 +53,7 @@ impl Meshes {
         self.meshes.iter().map(|(mesh, parts)| mesh.positions().len() * parts.len()).sum()
     }
 
-    /// Changes every mesh, of which `step` is also told how often it is shown; those of which no triangle is left go.
+    /// Changes every mesh; `step` also gets the number of parts that show it. Meshes without triangles are dropped.
     fn change(&mut self, mut step: impl FnMut(&Mesh, usize) -> Option<Mesh>) {
         let meshes = std::mem::take(&mut self.meshes).into_iter();
         self.meshes = meshes.filter_map(|(mesh, parts)| Some((step(&mesh, parts.len())?, parts))).collect();

@@ -1,24 +1,24 @@
-//! `--tolerance`: how far a picture may differ from the exact one.
+//! `--tolerance`: the allowed difference from the exact picture.
 
 use clap::Args;
 use halfway::prelude::*;
 
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct ToleranceArgs {
-    /// How far the picture may differ from the exact one, which has every light and every triangle: in steps of 1/255,
-    /// and by how many pixels a point may move (0 if left out) [default: the scene's; exact if it has none, and always
+    /// The allowed difference from the exact picture, which has every light and every triangle: in steps of 1/255, and
+    /// by how many pixels a point may move (0 if left out) [default: the scene's; exact if it has none, and always
     /// in verify]
     #[arg(long, value_name = "STEPS[,PIXELS]|exact", value_parser = parse)]
     tolerance: Option<Tolerance>,
 }
 
 impl ToleranceArgs {
-    /// As asked for, or this.
+    /// The given tolerance, or else `other`.
     pub(crate) fn or(self, other: Tolerance) -> Tolerance {
         self.tolerance.unwrap_or(other)
     }
 
-    /// What was asked for.
+    /// The given tolerance.
     pub(crate) fn given(self) -> Option<Tolerance> {
         self.tolerance
     }

@@ -1,8 +1,8 @@
-//! A camera that goes round what it sees.
+//! A camera that orbits the scene.
 
 use halfway::prelude::*;
 
-/// The camera goes round the point on its axis that is nearest to the middle of the objects.
+/// The camera orbits the point on its axis that is nearest to the middle of the objects.
 #[derive(Resource)]
 pub(crate) struct Turntable {
     camera: Entity,
@@ -20,7 +20,7 @@ impl Turntable {
         app.insert_resource(Self { camera, start, step, frame: 0, pivot: None }).add_systems(Update, turn);
     }
 
-    /// As objects stand in a scene file, which lets none of them move.
+    /// The pivot. Objects of scene files do not move.
     fn pivot(&self, objects: Query<(&Mesh3d, &GlobalTransform)>, meshes: &Assets<Mesh>) -> Vec3 {
         let centers: Vec<Vec3> = objects
             .iter()
@@ -38,7 +38,7 @@ fn turn(
     objects: Query<(&Mesh3d, &GlobalTransform)>,
     meshes: Res<Assets<Mesh>>,
 ) {
-    // Before the first frame objects are not in their places yet.
+    // Before the first frame transforms are not propagated yet.
     if table.frame > 0 {
         let pivot = table.pivot.unwrap_or_else(|| table.pivot(objects, &meshes));
         table.pivot = Some(pivot);

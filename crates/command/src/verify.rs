@@ -9,25 +9,25 @@ use halfway::reference::metrics::{Bars, Scale, Verdict, difference, judge, judge
 use halfway::reference::{Image, Oracle};
 use halfway::render::RenderError;
 
+use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::{DIFFERENT, Failure, STOPPED};
 use crate::input::SceneInput;
-use crate::look::{LookArgs, SizeArgs};
 use crate::progress::Progress;
 use crate::{figures, picture};
 
 #[derive(Args, Debug)]
 pub(crate) struct VerifyArgs {
     #[command(flatten)]
-    look: LookArgs,
+    drawing: DrawingArgs,
     #[command(flatten)]
     size: SizeArgs,
     /// Draw where the 8-bit pictures differ, with a legend, into this PNG
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Judge this picture, a PNG or EXR of the scene's first moment, and not what the adapter draws; its size is taken
+    /// Judge this picture, a PNG or EXR of the scene's first moment, instead of the adapter's; its size is used
     #[arg(long, value_name = "FILE", conflicts_with_all = ["adapter", "tolerance"])]
     picture: Option<PathBuf>,
-    /// Exit with code 4 where a pixel of a picture of bytes differs by more steps of 1/255 from what it may show
+    /// Exit with code 4 if a pixel of a picture of bytes differs by more steps of 1/255 from what it may show
     #[arg(long, value_name = "STEPS", default_value_t = 1)]
     max: u8,
     /// Print JSON instead of lines
@@ -36,11 +36,11 @@ pub(crate) struct VerifyArgs {
 }
 
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
-    let mut input = SceneInput::read(&args.look)?;
+    let mut input = SceneInput::read(&args.drawing)?;
     if let Some(file) = &args.picture {
         return judge_picture(args, input, file);
     }
-    let tolerance = args.look.tolerance.or(Tolerance::EXACT);
+    let tolerance = args.drawing.tolerance.or(Tolerance::EXACT);
     if tolerance.pixels > 0.0 {
         let pixels = tolerance.pixels;
         let advice =
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
         eprintln!("note: judged with one sample a pixel, since adapters differ in where they take four");
     }
     input.scene.samples = 1;
-    let adapter = args.look.adapter.choice().open()?;
+    let adapter = args.drawing.adapter.choice().open()?;
     let device = adapter.describe();
     let bits = adapter.sub_pixel_bits()?;
     let mut app = App::new();
@@ -63,7 +63,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     set_up(&mut app, &input)?;
     let encoding = input.scene.output;
 
-    let progress = Progress::of_tiles(2);
+    let progress = Progress::for_tiles(2);
     let beside_oracle = |app: &mut App, picture: &Picture, index: u32| {
         let (actual, is_clamped) = match picture {
             Picture::Byte(image) => (Image::from_bytes(image, encoding), true),
@@ -110,7 +110,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     verdict(args.max, &of_bytes, float.as_ref())
 }
 
-/// Judges a picture that is there, by the oracle alone.
+/// Judges a given picture by the oracle, without an adapter.
 fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Result<(), Failure> {
     let encoding = input.scene.output;
     let picture = picture::decoded(file)?;
@@ -129,7 +129,7 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
         bars if bars.are_clamped() => Bars { most: args.max.into(), worst: args.max.into(), ..bars },
         bars => bars,
     };
-    let progress = Progress::of_tiles(1);
+    let progress = Progress::for_tiles(1);
     let actual = Image::from_decoded(&picture, encoding);
     let told = |done: u32, of: u32| progress.tile(0, done, of);
     let drawn = Drawn::new(&mut app, actual, None, bars.are_clamped(), &told)?;
@@ -149,7 +149,7 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     if found.is_within() { Ok(()) } else { Err(Failure::new(DIFFERENT, format!("{}: {found}", file.display()))) }
 }
 
-/// Either picture keeps to its bar for the worst pixel.
+/// Checks that either picture is within its bar for the worst pixel.
 fn verdict(max: u8, bytes: &Verdict, float: Option<&Verdict>) -> Result<(), Failure> {
     let different = |what: String| Err(Failure::new(DIFFERENT, what));
     if bytes.bad + float.map_or(0, |float| float.bad) > 0 {
@@ -167,7 +167,7 @@ fn verdict(max: u8, bytes: &Verdict, float: Option<&Verdict>) -> Result<(), Fail
     }
 }
 
-/// Puts the scene into the App and finishes its plugins. All frames are of one moment.
+/// Spawns the scene into the App and finishes its plugins. All frames show one moment.
 fn set_up(app: &mut App, input: &SceneInput) -> Result<(), Failure> {
     input.spawn(app)?;
     app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
@@ -184,14 +184,14 @@ fn draw(app: &mut App, size: UVec2, pixels: Pixels) -> Result<Picture, RenderErr
 /// One picture of a scene, and the oracle's.
 struct Drawn {
     oracle: Oracle,
-    /// The bits of the adapter's grid within a pixel, where it is an adapter's picture.
+    /// The bits of the adapter's grid within a pixel, if it is an adapter's picture.
     bits: Option<u32>,
     actual: Image,
     expected: Image,
 }
 
 impl Drawn {
-    /// Draws what is in the App by the oracle, too. `progress` is told of its tiles.
+    /// Draws the App by the oracle, too. `progress` is called for its tiles.
     fn new(
         app: &mut App,
         actual: Image,
@@ -205,13 +205,13 @@ impl Drawn {
         Ok(Self { oracle, bits, actual, expected })
     }
 
-    /// Draws where the pictures differ, where that is asked for.
+    /// Draws the differences, if that is asked for.
     fn write_difference(&self, args: &VerifyArgs, encoding: Encoding) -> Result<(), Failure> {
         let Some(file) = &args.output else { return Ok(()) };
         picture::write(file, difference(&self.actual, &self.expected, encoding, Scale::default()).map_err(text)?)
     }
 
-    /// How right it is.
+    /// Judges the picture by these bars.
     fn judged(&self, bars: Bars) -> Result<Verdict, Failure> {
         let Self { oracle, bits, actual, expected } = self;
         match bits {
@@ -230,7 +230,7 @@ fn text(error: impl std::fmt::Display) -> Failure {
 mod tests {
     use super::*;
 
-    /// A verdict of a picture whose worst pixel is so far off.
+    /// A verdict of a picture with this worst error.
     fn off(bars: Bars, worst: f64) -> Verdict {
         let (most, at) = (0.0, None);
         Verdict {

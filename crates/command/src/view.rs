@@ -3,25 +3,25 @@
 use clap::Args;
 use halfway::prelude::*;
 
+use crate::drawing::DrawingArgs;
 use crate::failure::Failure;
 use crate::input::SceneInput;
-use crate::look::LookArgs;
 
 #[derive(Args, Debug)]
 pub(crate) struct ViewArgs {
     #[command(flatten)]
-    look: LookArgs,
+    drawing: DrawingArgs,
 }
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
-    let input = SceneInput::read(&args.look)?;
+    let input = SceneInput::read(&args.drawing)?;
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name()));
-    app.insert_resource(args.look.adapter.choice());
+    app.insert_resource(args.drawing.adapter.choice());
     input.spawn(&mut app)?;
     match app.run() {
         AppExit::Success => Ok(()),
-        // What went wrong has been said where it happened.
+        // The error was already printed.
         AppExit::Error(code) => Err(Failure::said(code.get())),
     }
 }

@@ -1,4 +1,4 @@
-//! The `halfway` command from outside: what it writes, and how it refuses what it cannot use.
+//! The `halfway` command from outside: its output, and its errors for bad input.
 
 mod command {
     mod adapters;

@@ -111,7 +111,7 @@ fn the_title_counts() {
     let title = eventually("a title with frames a second and nothing uploaded", || viewer.title().filter(settled));
     let (names, counted) = title.split_once(" — ").unwrap_or_else(|| panic!("no counters: {title}"));
     assert_eq!(names, "halfway – teapot.obj");
-    // What shows only where there is some of it.
+    // Counters that are shown only if they are not 0.
     let sometimes = ["culled", "listed", "pending"];
     let mut parts = counted.split(" · ").filter(|part| !sometimes.iter().any(|end| part.ends_with(end)));
     for noun in ["draw", "triangle", "light", "pipeline"] {

@@ -1,4 +1,4 @@
-//! How halfway lights: lights, materials and the equations.
+#![doc = include_str!("../README.md")]
 //!
 //! # The equation
 //! ```text

@@ -1,6 +1,6 @@
-//! The levels of detail of some meshes, or of the models named: how long making them takes and how much memory at most,
-//! how many triangles they have and how far off they are. Run with `--release`; `--times 5` makes each five times and
-//! gives the median, `RAYON_NUM_THREADS=1` makes them on one thread.
+//! The levels of detail of some meshes, or of the models named: the time and the peak memory to make them, their
+//! triangles and their errors. Run with `--release`; `--times 5` makes each five times and gives the median,
+//! `RAYON_NUM_THREADS=1` makes them on one thread.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 type NamedMesh = (&'static str, fn() -> Mesh);
 
-/// What can be named instead of a model.
+/// The meshes that can be named instead of a model.
 const MADE: [NamedMesh; 6] = [
     ("stone", || stone(1000, 501)),
     ("heights", heights),
@@ -67,13 +67,13 @@ fn heights() -> Mesh {
     moved.expect("finite heights").0
 }
 
-/// A number from 0 to 1 of a place, the same for both ends of a seam.
+/// A random number from 0 to 1 by position, the same for both ends of a seam.
 fn random(p: Vec3) -> f32 {
     let mix = |all: u32, x: f32| (all ^ (x + 2.0).to_bits()).wrapping_mul(0x9E37_79B1).rotate_left(13);
     p.to_array().into_iter().fold(0, mix) as f32 / u32::MAX as f32
 }
 
-/// What would be drawn where groups will do that are no further off than this.
+/// Prints the triangles drawn if groups with at most this error are accepted.
 fn print_levels(name: &str, mesh: &Mesh, times: usize) {
     let mut seconds = Vec::new();
     let (mut hierarchy, mut memory) = (None, 0);

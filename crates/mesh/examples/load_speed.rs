@@ -52,7 +52,7 @@ fn measure(folder: &Path, side: u32) -> Result<(), Box<dyn std::error::Error>> {
     let with_polygons = tobj::LoadOptions { ignore_lines: true, ignore_points: true, ..tobj::LoadOptions::default() };
     for path in [&obj, &bare] {
         pair("tobj", path, || drop(black_box(tobj(path, &tobj::GPU_LOAD_OPTIONS))))?;
-        // As decision 0012 would have it: what is missing in `tobj` is looked for before.
+        // As decision 0012 would have it: a scan before `tobj` for the features that it lacks.
         pair("a scan and tobj", path, || {
             black_box(scan(&std::fs::read(path).expect("it is there")));
             drop(black_box(tobj(path, &with_polygons)));
@@ -86,7 +86,7 @@ fn measure(folder: &Path, side: u32) -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The least that a scan has to find: the smoothing group of each face, and text that is not UTF-8.
+/// The least that a scan must find: the smoothing group of each face, and text that is not UTF-8.
 fn scan(bytes: &[u8]) -> (Vec<u32>, bool) {
     let (mut groups, mut group) = (Vec::new(), 0);
     for line in bytes.split(|&byte| byte == b'\n') {

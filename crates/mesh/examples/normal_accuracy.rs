@@ -1,4 +1,4 @@
-//! How far vertex normals are from those of the surface: the four weightings on five surfaces, at four tessellations,
+//! The angles between computed and true vertex normals: the four weightings on five surfaces, at four tessellations,
 //! on regular and on jittered meshes. Prints a table in Markdown, or with the argument `csv` one in CSV.
 //!
 //! Jittered meshes have their vertices moved on the surface, and their cells cut along either diagonal: by up to 0.35
@@ -109,7 +109,7 @@ struct SampledMesh {
 }
 
 impl SampledMesh {
-    fn of(shape: &TestSurface, cells: usize, kind: MeshKind) -> Self {
+    fn new(shape: &TestSurface, cells: usize, kind: MeshKind) -> Self {
         let mut sample = Self::default();
         for piece in &shape.pieces {
             sample.add(piece, [cells * piece.aspect, cells], kind);
@@ -162,7 +162,7 @@ impl SampledMesh {
         }
     }
 
-    /// The vertices of which something is asked: those inside the surface, where it is smooth, that some triangle uses.
+    /// The vertices that are measured: those inside the surface, where it is smooth, that some triangle uses.
     fn asked(&self) -> Vec<(usize, DVec3)> {
         let key = |i: u32| self.positions[i as usize].to_array().map(|x| (x + 0.0).to_bits());
         let mut sides = HashMap::new();
@@ -188,7 +188,7 @@ impl SampledMesh {
     }
 }
 
-/// The parameters of a vertex of the grid. The ends of what is not closed stay; those of what is closed agree.
+/// The parameters of a vertex of the grid. Open ends stay at 0 and 1; closed ends coincide.
 fn parameters(piece: &ParameterPiece, cells: [usize; 2], at: [usize; 2], kind: MeshKind) -> [f64; 2] {
     let place = [0, 1].map(|k| if piece.closed[k] { at[k] % cells[k] } else { at[k] });
     let inside = |k: usize| piece.closed[k] || (place[k] > 0 && place[k] < cells[k]);
@@ -243,7 +243,7 @@ fn main() {
             [("regular", MeshKind::Regular), ("jittered", MeshKind::Jittered), ("slivers", MeshKind::Slivers)]
         {
             for cells in shape.cells {
-                let sample = SampledMesh::of(shape, cells, kind);
+                let sample = SampledMesh::new(shape, cells, kind);
                 let triangles = sample.indices.len() / 3;
                 let found = WEIGHTINGS.map(|weighting| errors(&sample, weighting));
                 for kind in 0..2 {

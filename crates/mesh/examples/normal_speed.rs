@@ -1,5 +1,5 @@
-//! What vertex normals of a mesh of a million triangles cost, in passes that only read the same arrays, and how much
-//! memory they take at their peak. Run with `--release`.
+//! The cost of vertex normals of a mesh of a million triangles, relative to passes that only read the same arrays, and
+//! their peak memory. Run with `--release`.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -26,7 +26,7 @@ fn torus() -> (Vec<Vec3>, Vec<u32>) {
     (positions, indices)
 }
 
-/// The shortest of nine runs, in milliseconds: what else the machine does only adds.
+/// The shortest of nine runs, in milliseconds: other work of the machine only adds to it.
 fn shortest(mut run: impl FnMut()) -> f64 {
     let times = (0..9).map(|_| {
         let start = Instant::now();
@@ -36,7 +36,7 @@ fn shortest(mut run: impl FnMut()) -> f64 {
     times.fold(f64::INFINITY, f64::min)
 }
 
-/// The most memory that the process has had since this was last asked, in MiB; on Linux only.
+/// The peak memory of the process since the last call, in MiB; on Linux only.
 fn peak() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let kib: f64 = status.lines().find(|line| line.starts_with("VmHWM"))?.split_whitespace().nth(1)?.parse().ok()?;

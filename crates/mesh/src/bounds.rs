@@ -3,6 +3,16 @@
 use bevy_math::{DVec3, Mat4, Vec3};
 
 /// An axis-aligned box: the smallest that holds a set of points. Never empty, always finite.
+///
+/// ```
+/// use bevy_math::Vec3;
+/// use halfway_mesh::{Bounds, Mesh, Teapot};
+///
+/// let teapot = Mesh::from(Teapot::new(8)).bounds();
+/// assert!((teapot.size().y - 2.3625).abs() < 1e-5);
+/// let both = teapot.union(&Bounds::from_points([Vec3::Y * 4.0]).expect("one point"));
+/// assert_eq!(both.max.y, 4.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// The least coordinate along each axis.

@@ -1,18 +1,18 @@
-//! Classes of things that are joined pair by pair (Galler and Fischer 1964, "An improved equivalence algorithm").
+//! Disjoint sets that are joined pair by pair (Galler and Fischer 1964, "An improved equivalence algorithm").
 
-/// Things counted from 0, each in one class: at first each in one of its own.
+/// Elements counted from 0, each in one set: at first, each alone in its own.
 pub(crate) struct Classes {
-    /// A thing of the same class, never a later one; the first points to itself.
+    /// An element of the same set, never a later one; the first points to itself.
     earlier: Vec<u32>,
 }
 
 impl Classes {
-    /// So many things, fewer than 2³², each in a class of its own.
+    /// `count` elements, fewer than 2³², each in a set of its own.
     pub(crate) fn new(count: usize) -> Self {
         Self { earlier: (0..count as u32).collect() }
     }
 
-    /// Makes the classes of two things one.
+    /// Unites the sets of two elements.
     pub(crate) fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.first(a), self.first(b));
         self.earlier[a.max(b) as usize] = a.min(b);
@@ -27,7 +27,8 @@ impl Classes {
         thing
     }
 
-    /// The number of each thing's class, counted from 0 in the order of their first things, and how many there are.
+    /// The number of each element's set, counted from 0 in the order of their first elements, and how many sets there
+    /// are.
     pub(crate) fn numbers(mut self) -> (Vec<u32>, usize) {
         let mut count = 0;
         for thing in 0..self.earlier.len() {

@@ -12,6 +12,20 @@ use crate::Mesh;
 /// The mesh that an entity shows.
 ///
 /// The entity's `GlobalTransform` places it; an identity [`Transform`] is added where there is none.
+///
+/// ```
+/// use bevy_app::App;
+/// use bevy_transform::components::Transform;
+/// use halfway_asset::Assets;
+/// use halfway_mesh::{Mesh, Mesh3d, MeshPlugin, Teapot};
+///
+/// let mut app = App::new();
+/// app.add_plugins(MeshPlugin);
+/// let teapot = app.world_mut().resource_mut::<Assets<Mesh>>().add(Teapot::new(8));
+/// // Two entities share one mesh.
+/// app.world_mut().spawn((Mesh3d(teapot.clone()), Transform::from_xyz(-3.0, 0.0, 0.0)));
+/// app.world_mut().spawn((Mesh3d(teapot), Transform::from_xyz(3.0, 0.0, 0.0)));
+/// ```
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq)]
 #[require(Transform, SpawnOrder = SpawnOrder::next())]
 pub struct Mesh3d(pub Handle<Mesh>);
@@ -22,12 +36,12 @@ impl From<Handle<Mesh>> for Mesh3d {
     }
 }
 
-/// When an object was spawned, among objects. Entities do not tell: their indices are used again.
+/// The order in which objects were spawned. Entity indices do not tell: they are reused.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SpawnOrder(u64);
 
 impl SpawnOrder {
-    /// Later than all that came before.
+    /// Later than all earlier ones.
     fn next() -> Self {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         Self(COUNT.fetch_add(1, Ordering::Relaxed))

@@ -9,14 +9,24 @@ impl Mesh {
     /// The mesh with each vertex moved along its normal by `height` of its number, and normals of the default
     /// weighting.
     ///
-    /// Vertices at equal positions stay together, so that nothing tears open at a seam or a crease: they move by the
-    /// mean of their heights along the mean of their normals, and not at all where that vanishes. A mesh shows no more
-    /// detail than it has vertices; [`subdivided`](Self::subdivided) gives it some. Tangents are dropped.
+    /// Vertices at equal positions stay together, so that seams and creases do not tear open: they move by the mean of
+    /// their heights along the mean of their normals, and not at all where that mean vanishes. A mesh shows no more
+    /// detail than it has vertices; [`subdivided`](Self::subdivided) adds some. Tangents are dropped.
+    ///
+    /// ```
+    /// use halfway_mesh::{Mesh, Plane};
+    ///
+    /// let plane = Mesh::from(Plane { size: 1.0, divisions: 16 });
+    /// let waves = |vertex: usize| 0.1 * (8.0 * plane.positions()[vertex].x).sin();
+    /// let (water, report) = plane.displaced(waves)?;
+    /// assert!(report.is_clean() && water.bounds().size().y > 0.15);
+    /// # Ok::<(), halfway_mesh::MeshError>(())
+    /// ```
     ///
     /// # Errors
     /// A height that is not finite, or a position moved beyond the range of `f32`; the error names the first.
     pub fn displaced(&self, height: impl Fn(usize) -> f32) -> Result<(Self, NormalReport), MeshError> {
-        let groups = Numbering::of_positions(self.positions());
+        let groups = Numbering::from_positions(self.positions());
         let mut sums = vec![(DVec3::ZERO, 0.0, 0.0); groups.count()];
         for (vertex, &group) in groups.numbers.iter().enumerate() {
             let height = height(vertex);

@@ -2,17 +2,17 @@
 
 use rayon::prelude::*;
 
-/// The edges between numbered points, and the triangles that pass them.
+/// The edges between numbered points, and the triangles along them.
 ///
-/// A pass is 3·triangle + corner: that triangle goes along the edge from that corner to its next. Sides between a point
-/// and itself are no edges.
+/// A pass is 3·triangle + corner: that triangle runs along the edge from that corner to the next. A side between a
+/// point and itself is not an edge.
 pub(crate) struct Edges {
     triangles: Vec<[u32; 3]>,
-    /// All passes, by the lower end, then the higher end, then their own number.
+    /// All passes, sorted by the lower end, then the higher end, then their own number.
     passes: Vec<u32>,
 }
 
-/// An edge, and who passes it.
+/// An edge, and the passes along it.
 pub(crate) struct Edge<'a> {
     /// Its ends, the lower first.
     pub(crate) ends: [u32; 2],
@@ -62,7 +62,7 @@ impl Edges {
         if self.is_upward(pass) { [pass, next] } else { [next, pass] }
     }
 
-    /// The point of the triangle that a pass leaves out.
+    /// The point of the pass's triangle that is not on the edge.
     pub(crate) fn opposite(&self, pass: u32) -> u32 {
         self.point(next_corner(next_corner(pass)))
     }
@@ -74,7 +74,7 @@ impl Edges {
             .map(|passes| Edge { ends: self.ends(passes[0]), passes })
     }
 
-    /// The two passes of an edge where two triangles meet that wind alike, each going its own way along it.
+    /// The two passes of an edge between two triangles of the same winding, which run along it in opposite directions.
     pub(crate) fn regular(&self, edge: &Edge) -> Option<[u32; 2]> {
         match *edge.passes {
             [a, b] if self.is_upward(a) != self.is_upward(b) => Some([a, b]),
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn edges_and_their_passes() {
-        // Two triangles that wind alike, one that does not, and one with a side of no length.
+        // Two triangles of the same winding, one of the opposite, and one with a side of no length.
         let edges = Edges::new(vec![[0, 1, 2], [2, 1, 3], [1, 3, 4], [5, 5, 0]]);
         let found: Vec<_> = edges.iter().map(|edge| (edge.ends, edge.passes.to_vec())).collect();
         let expected = [

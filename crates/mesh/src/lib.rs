@@ -1,29 +1,4 @@
-//! What halfway lights: triangle meshes, their normals, parametric surfaces and file formats.
-//!
-//! - [`Mesh`] is a validated list of vertices and triangles, an asset of `bevy_asset`; [`Mesh3d`] puts one on an
-//!   entity.
-//! - [`Normals`] says how a mesh gets its normals: the file's, one a face, or a weighted mean of the faces around a
-//!   vertex, creased or not; [`Mesh::with_tangents`] adds tangents.
-//! - [`Mesh::report`] looks a mesh over; [`Mesh::welded`] and [`Mesh::repaired`] mend it; [`Mesh::subdivided`] and
-//!   [`Mesh::displaced`] give it detail, [`Mesh::simplified`] and [`Mesh::lod_hierarchy`] take it away;
-//!   [`Mesh::baked_occlusion`] bakes how much light from all sides arrives at it.
-//! - [`Plane`], [`Cuboid`], [`UvSphere`], [`Icosphere`] and [`Teapot`] turn into meshes with analytic normals; so do
-//!   the quadrics, the torus, [`BezierPatch`] and the other [`ParametricSurface`]s, by count or by chord error.
-//! - [`Mesh::surface`] is the smooth surface that a mesh stands for, where it is known by formula.
-//! - [`load`] reads SMF, Wavefront OBJ with MTL, glTF 2.0 (text and binary), PLY and STL into a [`Model`]; [`write()`]
-//!   writes one as SMF, OBJ or binary glTF.
-//!
-//! The crate knows nothing of lights, GPUs or windows. Everything is right-handed with Y up, front faces wind
-//! counter-clockwise, and texture coordinates have their origin at the top left of the image.
-//!
-//! ```
-//! use halfway_mesh::{Mesh, NormalWeighting, Normals, Teapot};
-//!
-//! let teapot = Mesh::from(Teapot::new(8));
-//! assert_eq!(teapot.normals().len(), teapot.positions().len());
-//! let (_flat, report) = teapot.with_normals(Normals::Face);
-//! assert_eq!(report.degenerate_triangles, 0);
-//! ```
+#![doc = include_str!("../README.md")]
 
 mod bounds;
 mod classes;

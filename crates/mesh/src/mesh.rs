@@ -13,11 +13,24 @@ use crate::{Bounds, NormalReport, NormalWeighting, Surface};
 /// A triangle mesh: vertices with a position, a unit normal and perhaps texture coordinates, a colour and a tangent,
 /// and triangles that index them.
 ///
-/// What holds for every mesh: at least one triangle; every index in range; every number finite; every normal of unit
-/// length. At most 2³² − 1 vertices and as many indices, since a draw call counts them in 32 bits. Front faces wind
-/// counter-clockwise. Degenerate triangles may be among the others.
+/// Every mesh has at least one triangle, all indices in range, all numbers finite and all normals of unit length. At
+/// most 2³² − 1 vertices and as many indices, since a draw call counts them in 32 bits. Front faces wind counter-
+/// clockwise. Degenerate triangles may be among the others.
 ///
 /// A mesh does not change once it is made, and its clones share its data.
+///
+/// ```
+/// use bevy_math::{Vec2, Vec3};
+/// use halfway_mesh::Mesh;
+///
+/// // A square of two triangles, with computed normals and the whole texture.
+/// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
+/// let uvs = vec![Vec2::Y, Vec2::ONE, Vec2::X, Vec2::ZERO];
+/// let square = Mesh::from_parts(corners, None, Some(uvs), vec![0, 1, 2, 0, 2, 3])?;
+/// assert_eq!(square.normals(), [Vec3::Z; 4]);
+/// assert_eq!((square.triangle_count(), square.bounds().max), (2, Vec3::new(1.0, 1.0, 0.0)));
+/// # Ok::<(), halfway_mesh::MeshError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     data: Arc<MeshData>,
@@ -37,6 +50,14 @@ struct MeshData {
 }
 
 /// Why a mesh was refused. Vertices and triangles are numbered from 0.
+///
+/// ```
+/// use bevy_math::Vec3;
+/// use halfway_mesh::{Mesh, MeshError};
+///
+/// let error = Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![0, 1, 3]).unwrap_err();
+/// assert!(matches!(error, MeshError::IndexOutOfRange { triangle: 0, corner: 2, index: 3, .. }));
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MeshError {
@@ -51,7 +72,7 @@ pub enum MeshError {
         /// How many there are.
         count: usize,
     },
-    /// Not as many of another attribute as positions.
+    /// An attribute has more or fewer values than there are vertices.
     #[error("{found} {attribute}s for {expected} positions; one a vertex is expected")]
     CountMismatch {
         /// `"normal"`, `"uv"` or `"colour"`.
@@ -67,7 +88,7 @@ pub enum MeshError {
         /// How many there are.
         count: usize,
     },
-    /// A triangle asks for a vertex that is not there.
+    /// A triangle refers to a vertex that does not exist.
     #[error("triangle {triangle}: index {index} at corner {corner}; the mesh has {vertices} vertices, numbered from 0")]
     IndexOutOfRange {
         /// The triangle.
@@ -86,7 +107,7 @@ pub enum MeshError {
         attribute: &'static str,
         /// The vertex.
         vertex: usize,
-        /// What was found there; numbers that the attribute does not have are 0.
+        /// The value found; numbers that the attribute does not have are 0.
         value: [f32; 3],
     },
     /// Tangents take texture coordinates.
@@ -131,7 +152,7 @@ impl Mesh {
         Self::from_parts_reported(positions, normals, uvs, indices).map(|(mesh, _)| mesh)
     }
 
-    /// [`from_parts`](Self::from_parts), and what had to be made up about the normals.
+    /// [`from_parts`](Self::from_parts), with a report of the normals that had to be filled in.
     ///
     /// # Errors
     /// As [`from_parts`](Self::from_parts).
@@ -159,7 +180,7 @@ impl Mesh {
         Ok((Self::checked(positions, normals, uvs, indices), report))
     }
 
-    /// Takes what is known to keep the promises of a mesh.
+    /// A mesh from data that is known to be valid.
     pub(crate) fn checked(positions: Vec<Vec3>, normals: Vec<Vec3>, uvs: Option<Vec<Vec2>>, indices: Vec<u32>) -> Self {
         let bounds =
             Bounds::from_points(positions.iter().copied()).unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO });
@@ -197,7 +218,7 @@ impl Mesh {
         Ok(self.changed(|data| data.second_uvs = Some(uvs)))
     }
 
-    /// The mesh with more vertices, each in the middle of two old ones in all that it has, and these triangles.
+    /// The mesh with more vertices, each in the middle of two old ones in every attribute, and these triangles.
     /// Tangents are dropped.
     pub(crate) fn extended(&self, pairs: impl Iterator<Item = [u32; 2]> + Clone, indices: Vec<u32>) -> Self {
         fn extend<T: Copy>(all: &[T], pairs: impl Iterator<Item = [u32; 2]>, middle: impl Fn(T, T) -> T) -> Vec<T> {
@@ -216,7 +237,7 @@ impl Mesh {
         })
     }
 
-    /// Takes normals that are known to be good. Tangents, which belong to the old normals, are dropped.
+    /// Replaces the normals by valid ones. Tangents, which belong to the old normals, are dropped.
     pub(crate) fn with_given_normals(self, normals: Vec<Vec3>) -> Self {
         self.changed(|data| {
             data.normals = normals;
@@ -224,7 +245,7 @@ impl Mesh {
         })
     }
 
-    /// Takes positions that are known to be good, as many as before.
+    /// Replaces the positions by valid ones, as many as before.
     pub(crate) fn with_given_positions(self, positions: Vec<Vec3>) -> Self {
         let MeshData { normals, uvs, second_uvs, colors, tangents, indices, .. } = Arc::unwrap_or_clone(self.data);
         Self::checked(positions, normals, uvs, indices).changed(|data| {
@@ -234,7 +255,7 @@ impl Mesh {
         })
     }
 
-    /// Takes tangents that are known to be good.
+    /// Replaces the tangents by valid ones.
     pub(crate) fn with_given_tangents(self, tangents: Vec<Vec4>) -> Self {
         self.changed(|data| data.tangents = Some(tangents))
     }
@@ -252,8 +273,8 @@ impl Mesh {
         Self { data: Arc::new(data) }
     }
 
-    /// The mesh whose vertices are those of the given numbers, all in range, in that order, with everything that they
-    /// have, and whose triangles are the given ones.
+    /// The mesh whose vertices are those of the given numbers, all in range, in that order, with all their attributes,
+    /// and whose triangles are the given ones.
     pub(crate) fn selected(&self, vertices: &[u32], indices: Vec<u32>) -> Self {
         fn pick<T: Copy>(all: &[T], vertices: &[u32]) -> Vec<T> {
             vertices.iter().map(|&vertex| all[vertex as usize]).collect()
@@ -270,7 +291,7 @@ impl Mesh {
 
     /// The numbers of the positions, and the edges between them.
     pub(crate) fn position_edges(&self) -> (Numbering, Edges) {
-        let groups = Numbering::of_positions(self.positions());
+        let groups = Numbering::from_positions(self.positions());
         let edges = Edges::new(groups.triangles(self.indices()));
         (groups, edges)
     }
@@ -306,7 +327,7 @@ impl Mesh {
         self.data.colors.as_deref()
     }
 
-    /// The colours as they are drawn: each number taken into 0 to 1, as glTF 2.0 §3.7.2.1 has it for `COLOR_0`.
+    /// The colours as they are drawn: each number clamped to 0 … 1, as glTF 2.0 §3.7.2.1 requires for `COLOR_0`.
     pub fn drawn_colors(&self) -> Option<Vec<Vec4>> {
         self.colors().map(|colors| colors.iter().map(|color| color.clamp(Vec4::ZERO, Vec4::ONE)).collect())
     }
@@ -331,8 +352,8 @@ impl Mesh {
         self.data.indices.len() / 3
     }
 
-    /// The smooth surface that the mesh stands for, where it is known by formula; `None` where the triangles are all
-    /// that is known, or all that there is. Other normals keep it, moved vertices do not.
+    /// The smooth surface that the mesh stands for, if it is known by formula; `None` if nothing but the triangles is
+    /// known. Other normals keep it, moved vertices do not.
     pub fn surface(&self) -> Option<&Surface> {
         self.data.surface.as_ref()
     }
@@ -383,12 +404,12 @@ fn check_indices(indices: &[u32], vertices: usize) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// Given normals scaled to unit length; the default weighting's in the place of those that have no direction.
+/// Given normals scaled to unit length; those without a direction are replaced by the default weighting's.
 fn kept_normals(mut given: Vec<Vec3>, positions: &[Vec3], indices: &[u32]) -> (Vec<Vec3>, NormalReport) {
     let mut without = Vec::new();
     for (vertex, n) in given.iter_mut().enumerate() {
         // In f64, where no finite f32 vector under- or overflows. A unit vector that was rounded to f32 is off by less
-        // than 1e-7; it stays as it is, so that what was written is read again.
+        // than 1e-7; it stays as it is, so that writing and reading gives the same bits.
         match n.as_dvec3().try_normalize() {
             Some(_) if (n.as_dvec3().length() - 1.0).abs() < 1e-7 => {}
             Some(unit) => *n = unit.as_vec3(),

@@ -1,4 +1,4 @@
-//! What a file holds, as the file says it.
+//! The contents of a model file, in the file's own terms.
 
 use bevy_math::Mat4;
 
@@ -6,7 +6,18 @@ use crate::{Bounds, Mesh, SourceMap};
 
 /// The content of a model file: meshes placed in the world, and the materials and lights that the file describes.
 ///
-/// Materials and lights keep the file's own terms; what they mean for shading is decided elsewhere.
+/// Materials and lights keep the file's own terms; `halfway_scene` turns them into components.
+///
+/// ```
+/// use halfway_mesh::{Format, load_bytes};
+///
+/// let text = b"o roof\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no wall\nf 3 2 1\n";
+/// let model = load_bytes(Format::Obj, text)?;
+/// let names: Vec<&str> = model.parts.iter().map(|part| part.name.as_str()).collect();
+/// assert_eq!(names, ["roof", "wall"]);
+/// assert_eq!(model.bounds().expect("two parts").size().x, 1.0);
+/// # Ok::<(), halfway_mesh::LoadError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     /// The meshes, at least one in a model that came from [`load`](crate::load).
@@ -17,12 +28,12 @@ pub struct Model {
     pub lights: Vec<SourceLight>,
     /// The cameras.
     pub cameras: Vec<SourceCamera>,
-    /// What was skipped or mended on the way, one sentence each.
+    /// Sentences about everything that was skipped or corrected.
     pub warnings: Vec<String>,
 }
 
 impl Model {
-    /// The box around all parts where they stand in the world, or `None` where there are none.
+    /// The box around all parts in world space, or `None` where there are none.
     pub fn bounds(&self) -> Option<Bounds> {
         self.parts
             .iter()
@@ -36,7 +47,7 @@ impl Model {
     }
 }
 
-/// A mesh of a model, with one material and a place.
+/// A mesh of a model, with one material and a transform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// The name of the object, group or node in the file; empty where it has none.
@@ -45,7 +56,7 @@ pub struct Part {
     pub mesh: Mesh,
     /// The index of its material in [`Model::materials`].
     pub material: Option<usize>,
-    /// The place of the part; may mirror, but is always finite and affine.
+    /// The transform of the part; may mirror, but is always finite and affine.
     pub world_from_part: Mat4,
 }
 
@@ -78,7 +89,7 @@ impl SourceMaterial {
 }
 
 /// A material of a Wavefront MTL file: the statements as they stand, finite but not limited to their usual ranges.
-/// `None` where the file says nothing.
+/// `None` where the file has no such statement.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MtlMaterial {
     /// `newmtl`.
@@ -103,7 +114,7 @@ pub struct MtlMaterial {
     pub maps: MtlMaps,
 }
 
-/// The images of an [`MtlMaterial`]. `None` where the file says nothing.
+/// The images of an [`MtlMaterial`]. `None` where the file has no such statement.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MtlMaps {
     /// `map_Kd`: its color multiplies `Kd`.
@@ -112,18 +123,18 @@ pub struct MtlMaps {
     pub ks: Option<SourceMap>,
     /// `map_Ke`: its color multiplies `Ke`.
     pub ke: Option<SourceMap>,
-    /// `map_d`: its number multiplies the opacity.
+    /// `map_d`: its value multiplies the opacity.
     pub d: Option<SourceMap>,
-    /// `map_Ns`: its number multiplies `Ns`.
+    /// `map_Ns`: its value multiplies `Ns`.
     pub ns: Option<SourceMap>,
-    /// `norm`: its colors are normals in the space of tangents.
+    /// `norm`: its colors are normals in tangent space.
     pub norm: Option<SourceMap>,
-    /// `map_Bump`: its numbers are heights.
+    /// `map_Bump`: its values are heights.
     pub bump: Option<SourceMap>,
 }
 
 /// A metallic-roughness material of glTF 2.0 (§3.9.2): the factors as they stand, finite but not limited to their
-/// usual ranges. Of textures that of metal and roughness is not read.
+/// usual ranges. The metallic-roughness texture is not read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MetallicRoughness {
     /// The material's name.
@@ -151,24 +162,24 @@ pub struct GltfMaps {
     pub base_color: Option<SourceMap>,
     /// `emissiveTexture`: its color multiplies the emission.
     pub emissive: Option<SourceMap>,
-    /// `occlusionTexture`: its number multiplies ambient light.
+    /// `occlusionTexture`: its value multiplies ambient light.
     pub occlusion: Option<SourceMap>,
-    /// `normalTexture`: its colors are normals in the space of tangents.
+    /// `normalTexture`: its colors are normals in tangent space.
     pub normal: Option<SourceMap>,
 }
 
-/// What the alpha of a glTF material does.
+/// The use of a glTF material's alpha.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum AlphaMode {
     /// Nothing: the surface is opaque.
     #[default]
     Opaque,
-    /// Below the cutoff the surface is not there, from it on it is opaque.
+    /// Below the cutoff the surface is invisible, from it on opaque.
     Mask {
         /// `alphaCutoff`, 0.5 by default.
         cutoff: f32,
     },
-    /// The surface covers by its alpha what is behind it.
+    /// The surface is blended over the background by its alpha.
     Blend,
 }
 
@@ -183,9 +194,9 @@ pub struct SourceLight {
     pub color: [f32; 3],
     /// Candela for point and spot lights, lux for directional lights.
     pub intensity: f32,
-    /// The distance at which it ends, in world units; `None` is unlimited.
+    /// The distance at which its light ends, in world units; `None` is unlimited.
     pub range: Option<f32>,
-    /// The place and the direction of the light; may scale, which has no meaning for a light.
+    /// The position and the direction of the light; may scale, which has no meaning for a light.
     pub world_from_light: Mat4,
 }
 
@@ -194,13 +205,13 @@ pub struct SourceLight {
 pub enum SourceLightKind {
     /// Parallel rays.
     Directional,
-    /// All ways from a point.
+    /// In all directions from a point.
     Point,
     /// A cone from a point; angles in radians from its axis.
     Spot {
         /// Where the light begins to fade.
         inner: f32,
-        /// Where it has ended.
+        /// Where the light has faded to 0.
         outer: f32,
     },
 }
@@ -210,9 +221,9 @@ pub enum SourceLightKind {
 pub struct SourceCamera {
     /// The name of the camera, else of its node; empty where neither has one.
     pub name: String,
-    /// What it sees.
+    /// Its projection.
     pub projection: SourceProjection,
-    /// The place and the direction of the camera; may scale, which has no meaning for a camera.
+    /// The position and the direction of the camera; may scale, which has no meaning for a camera.
     pub world_from_camera: Mat4,
 }
 
@@ -223,7 +234,7 @@ pub enum SourceProjection {
     Perspective {
         /// The vertical angle of view in radians, above 0.
         yfov: f32,
-        /// Width over height; `None` is that of the picture.
+        /// Width over height; `None` takes that of the picture.
         aspect: Option<f32>,
         /// The distance of the near plane, above 0.
         near: f32,
@@ -232,9 +243,9 @@ pub enum SourceProjection {
     },
     /// By parallel rays.
     Orthographic {
-        /// Half the width of what is seen (`xmag`), not 0.
+        /// Half the width of the view (`xmag`), not 0.
         half_width: f32,
-        /// Half the height of what is seen (`ymag`), not 0.
+        /// Half the height of the view (`ymag`), not 0.
         half_height: f32,
         /// The distance of the near plane, not below 0.
         near: f32,

@@ -1,20 +1,20 @@
-//! Equal things get equal numbers.
+//! Numbering of distinct values.
 
 use std::hash::BuildHasher;
 
 use bevy_math::Vec3;
 use hashbrown::{DefaultHashBuilder, HashTable};
 
-/// The numbers of a list of things: equal ones have the same, counted from 0 in the order in which they first come.
+/// The numbers of a list: equal elements have the same number, counted from 0 in the order of first occurrence.
 pub(crate) struct Numbering {
-    /// The number of each thing.
+    /// The number of each element.
     pub(crate) numbers: Vec<u32>,
-    /// The first thing of each number.
+    /// The first element of each number.
     pub(crate) firsts: Vec<u32>,
 }
 
 impl Numbering {
-    /// Numbers `count` things, at most 2³² − 1, by their keys. Keys are asked for again, not kept.
+    /// Numbers `count` elements, at most 2³² − 1, by their keys. Keys are computed again, not stored.
     pub(crate) fn new<const N: usize>(count: usize, key: impl Fn(usize) -> [u32; N]) -> Self {
         let mut table = KeyNumbers::default();
         let mut firsts: Vec<u32> = Vec::new();
@@ -30,8 +30,8 @@ impl Numbering {
         Self { numbers, firsts }
     }
 
-    /// Numbers positions; −0 and 0 are one.
-    pub(crate) fn of_positions(positions: &[Vec3]) -> Self {
+    /// Numbers positions; −0 and 0 are equal.
+    pub(crate) fn from_positions(positions: &[Vec3]) -> Self {
         Self::new(positions.len(), |vertex| position_key(positions[vertex]))
     }
 
@@ -46,8 +46,8 @@ impl Numbering {
     }
 }
 
-/// Distinct keys that come one by one, numbered from 0 in the order in which they first come: the corners of a file of
-/// any length, of which only the distinct ones are kept.
+/// Distinct keys that arrive one by one, numbered from 0 in the order of first occurrence: the corners of a file of any
+/// length, of which only the distinct ones are stored.
 #[derive(Default)]
 pub(crate) struct DistinctKeys {
     /// The key of each number.
@@ -73,7 +73,7 @@ impl DistinctKeys {
     }
 }
 
-/// The numbers of keys, found by the keys, which lie elsewhere. The hashes are seeded anew each run, so that no file
+/// The numbers of keys, found by the keys, which are stored elsewhere. Hashes have a new seed each run, so that no file
 /// can be made to collide; the numbers do not depend on it.
 #[derive(Default)]
 struct KeyNumbers {
@@ -82,7 +82,7 @@ struct KeyNumbers {
 }
 
 impl KeyNumbers {
-    /// The number of a key, which is `next` where the key is not there yet; `key_of` gives the keys of those that are.
+    /// The number of a key: `next` if the key is new; `key_of` gives the keys of those that exist.
     fn number<const N: usize>(&mut self, next: u32, key: [u32; N], key_of: impl Fn(u32) -> [u32; N]) -> u32 {
         let Self { numbers, hasher } = self;
         let hash = |key: [u32; N]| hasher.hash_one(key);
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_things_have_equal_numbers_in_order_of_their_first() {
+    fn numbers_follow_the_order_of_first_occurrence() {
         let things = [7, 3, 7, 9, 3, 7];
         let numbering = Numbering::new(things.len(), |i| [things[i]]);
         assert_eq!(numbering.numbers, [0, 1, 0, 2, 1, 0]);
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_that_come_one_by_one_are_numbered_alike() {
+    fn incremental_numbering_agrees_with_batch_numbering() {
         let key = |i: u32| [i, i / 7, i.wrapping_mul(1 << 20)];
         let mut distinct = DistinctKeys::default();
         for i in 0..5000 {
@@ -121,12 +121,12 @@ mod tests {
 
     #[test]
     fn many_keys_of_few_bits_stay_apart() {
-        // A grid of whole numbers, whose f32 patterns end in zeros: what a weak hash would pile up.
+        // A grid of whole numbers, whose f32 patterns end in zeros, where a weak hash would collide.
         let side = 40;
         let at = |i: usize| Vec3::new((i % side) as f32, (i / side % side) as f32, (i / side / side) as f32);
         let points: Vec<Vec3> = (0..side * side * side).map(at).collect();
-        let numbering = Numbering::of_positions(&points);
+        let numbering = Numbering::from_positions(&points);
         assert!(numbering.numbers.iter().enumerate().all(|(i, &number)| number as usize == i));
-        assert_eq!(Numbering::of_positions(&[Vec3::ZERO, -Vec3::ZERO, Vec3::X]).numbers, [0, 0, 1]);
+        assert_eq!(Numbering::from_positions(&[Vec3::ZERO, -Vec3::ZERO, Vec3::X]).numbers, [0, 0, 1]);
     }
 }

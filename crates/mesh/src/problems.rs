@@ -1,4 +1,4 @@
-//! What is wrong with a mesh that can be drawn all the same.
+//! Problems of a mesh that can be drawn all the same.
 
 use std::fmt;
 
@@ -7,17 +7,24 @@ use crate::edges::{Edge, Edges};
 use crate::normals::{NormalWeighting, vertex_normals};
 use crate::numbering::Numbering;
 
-/// What a look over a mesh found: nothing of it keeps the mesh from being drawn.
+/// The problems that [`Mesh::report`] found; none of them keeps the mesh from being drawn.
 ///
-/// Edges are told apart by the positions of their ends, so that a seam in the texture coordinates is no border. Shown
-/// as text it lists what there is, as `3 degenerate triangles, 12 open edges`, or `none`.
+/// Edges are told apart by the positions of their ends, so that a seam in the texture coordinates is no border.
+/// `Display` lists the counts, as `3 degenerate triangles, 12 open edges`, or `none`.
+///
+/// ```
+/// use halfway_mesh::{Mesh, Plane};
+///
+/// let problems = Mesh::from(Plane::default()).report().problems;
+/// assert_eq!(problems.to_string(), "4 open edges");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Problems {
     /// Triangles without a normal (see [`face_normal`](crate::face_normal)).
     pub degenerate_triangles: usize,
     /// Triangles with the same three positions as an earlier one, whichever way they wind.
     pub duplicate_triangles: usize,
-    /// Vertices that equal an earlier one in all that they have.
+    /// Vertices that equal an earlier one in all attributes.
     pub duplicate_vertices: usize,
     /// Vertices of no triangle.
     pub unused_vertices: usize,
@@ -27,12 +34,12 @@ pub struct Problems {
     pub open_edges: usize,
     /// Edges of more than two triangles.
     pub crowded_edges: usize,
-    /// Edges whose two triangles wind opposite ways, so that one of them shows its back.
+    /// Edges whose two triangles have opposite windings, so that one of them shows its back.
     pub misoriented_edges: usize,
 }
 
 impl Problems {
-    /// Whether nothing was found.
+    /// Whether all counts are 0.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }

@@ -5,31 +5,30 @@ use std::sync::Arc;
 /// An image that a material refers to: the bytes of its file, not decoded, and how the material looks it up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceMap {
-    /// What messages call it: its path, or its place in the file.
+    /// Its name in messages: its path, or the element of the file.
     pub name: String,
-    /// The bytes of a PNG or JPEG file, shared with other materials; none where it could not be read, of which a
-    /// warning of the model tells.
+    /// The bytes of a PNG or JPEG file, shared with other materials; empty if it could not be read, in which case the
+    /// model has a warning.
     pub bytes: Arc<[u8]>,
-    /// What is beyond the image along u, and along v.
+    /// The continuation beyond the image along u, and along v.
     pub wrap: [SourceWrap; 2],
-    /// Whether texels that are larger than pixels are blurred into each other; else they are squares.
+    /// Whether magnified texels are interpolated; else they are squares.
     pub smooth: bool,
-    /// Whether texels that are smaller than pixels are.
+    /// Whether minified texels are interpolated.
     pub smooth_levels: bool,
-    /// Which smaller images stand for the image there.
+    /// The mipmap levels used for minification.
     pub levels: SourceLevels,
-    /// The number of the set of texture coordinates that it takes, 0 or 1.
+    /// The set of texture coordinates, 0 or 1.
     pub uv_set: usize,
-    /// Texture coordinates are moved by this, after `rotation` and `scale`; (0, 0) is the image's top left corner.
+    /// The translation of texture coordinates, after `rotation` and `scale`; (0, 0) is the image's top left corner.
     pub offset: [f32; 2],
-    /// Turned by, in radians, counter-clockwise as the image is seen; after `scale`.
+    /// The rotation in radians, counter-clockwise as the image is seen; after `scale`.
     pub rotation: f32,
-    /// Stretched by.
+    /// The scale.
     pub scale: [f32; 2],
-    /// The number of a texel that counts where one does; `None` where the file does not say.
+    /// The channel, for maps that use one; `None` if the file does not name it.
     pub channel: Option<SourceChannel>,
-    /// How much it counts: the strength of an occlusion, the scale of a normal map, the height of a bump map.
-    /// Otherwise 1.
+    /// The strength of an occlusion map, the scale of a normal map, the height of a bump map. Otherwise 1.
     pub amount: f32,
 }
 
@@ -46,26 +45,26 @@ pub enum SourceChannel {
     Alpha,
 }
 
-/// What is beyond an image.
+/// The continuation beyond an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SourceWrap {
-    /// The image again.
+    /// Repeats the image.
     #[default]
     Repeat,
-    /// The image mirrored, and then again.
+    /// Repeats the image, mirrored every other time.
     Mirror,
-    /// Its outermost texels.
+    /// Repeats its outermost texels.
     Clamp,
 }
 
-/// Which smaller images stand for an image.
+/// The mipmap levels of an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SourceLevels {
-    /// None.
+    /// No mipmaps.
     None,
-    /// The one nearest in size.
+    /// The level nearest in size.
     Nearest,
-    /// The two nearest in size, mixed.
+    /// Interpolates the two levels nearest in size.
     #[default]
     Linear,
 }

@@ -7,19 +7,18 @@ use crate::normals::{Fans, face_normals};
 use crate::numbering::Numbering;
 use crate::{Mesh, MeshError, NormalWeighting};
 
-/// Where the new vertices go, and the old ones.
+/// The rule by which subdivision places vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Subdivision {
-    /// New vertices in the middle of the edges: the shape stays, and so does its shading but for the rounding of the
+    /// New vertices in the middle of the edges: the shape stays, and so does its shading up to the rounding of the
     /// mean normals. The default.
     #[default]
     Midpoint,
     /// Loop 1987, "Smooth subdivision surfaces based on triangles": the shape becomes ever smoother, and has a
-    /// continuous normal in the limit. Edges stay sharp where the mesh has a border, where more than two triangles meet
-    /// or two wind opposite ways, and where the normals on both sides differ by more than a degree; sharp rows of edges
-    /// become cubic B-splines, and vertices of three sharp edges or more stay where they are (Hoppe et al. 1994,
-    /// "Piecewise smooth surface reconstruction"). Normals are of the default weighting, apart on both sides of sharp
-    /// edges.
+    /// continuous normal in the limit. Edges stay sharp at borders, where more than two triangles meet or two have
+    /// opposite windings, and where the normals on both sides differ by more than a degree; sharp rows of edges become
+    /// cubic B-splines, and vertices of three sharp edges or more stay in place (Hoppe et al. 1994, "Piecewise smooth
+    /// surface reconstruction"). Normals are of the default weighting, separate on both sides of sharp edges.
     Loop,
 }
 
@@ -28,13 +27,22 @@ impl Subdivision {
     pub const MAX_TRIANGLES: u64 = 1 << 24;
 }
 
-/// Normals on both sides of an edge that differ by more than a degree make it sharp.
+/// An edge whose two normals differ by more than a degree is sharp.
 const SHARP_COSINE: f32 = 0.999_847_7;
 
 impl Mesh {
     /// The mesh with each triangle cut into four, `times` times over; the four of triangle i are 4i … 4i + 3.
     ///
     /// Texture coordinates and colours are interpolated linearly. Tangents are dropped.
+    ///
+    /// ```
+    /// use halfway_mesh::{Icosphere, Mesh, Subdivision};
+    ///
+    /// let icosahedron = Mesh::from(Icosphere::new(1.0, 1));
+    /// let smooth = icosahedron.subdivided(Subdivision::Loop, 3)?;
+    /// assert_eq!(smooth.triangle_count(), 20 * 4_usize.pow(3));
+    /// # Ok::<(), halfway_mesh::MeshError>(())
+    /// ```
     ///
     /// # Errors
     /// More than [`Subdivision::MAX_TRIANGLES`] triangles.
@@ -53,7 +61,7 @@ impl Mesh {
 
     fn subdivided_once(&self, scheme: Subdivision) -> Self {
         let indices = self.indices();
-        // One new vertex for each pair of old ones that a side joins; across a seam there are two.
+        // One new vertex for each pair of vertices that a side joins; across a seam there are two.
         let middles = Numbering::new(indices.len(), |corner| {
             let (from, to) = (indices[corner], indices[next(corner)]);
             [from.min(to), from.max(to)]
@@ -74,7 +82,7 @@ impl Mesh {
         let (groups, edges) = self.position_edges();
         let p = |point: u32| self.positions()[groups.firsts[point as usize] as usize].as_dvec3();
         let mut rings = vec![Ring::default(); groups.count()];
-        // By pass; a side between equal positions has no edge, and its middle is there as well.
+        // By pass; a side between equal positions is not an edge, and its middle is there as well.
         let mut middle: Vec<DVec3> = (0..self.indices().len() as u32).map(|corner| p(edges.point(corner))).collect();
         for edge in edges.iter() {
             let [a, b] = edge.ends;
@@ -103,7 +111,7 @@ impl Mesh {
         (0..2).all(|end| n(a[end]).dot(n(b[end])) >= SHARP_COSINE).then_some(passes)
     }
 
-    /// Normals of the default weighting, apart on both sides of sharp edges.
+    /// Normals of the default weighting, separate on both sides of sharp edges.
     fn with_sharp_normals(&self) -> Self {
         let (_, edges) = self.position_edges();
         let mut fans = Fans::new(&edges);
@@ -130,7 +138,7 @@ fn quartered(indices: &[u32], vertices: u32, middles: &[u32]) -> Vec<u32> {
     corners.flat_map(four).collect()
 }
 
-/// What a vertex sees around it.
+/// The neighbours of a vertex.
 #[derive(Clone, Copy, Default)]
 struct Ring {
     sum: DVec3,
@@ -149,7 +157,7 @@ impl Ring {
         }
     }
 
-    /// Where Loop's rules move the vertex at `p`. One sharp edge alone, which ends there, counts as none.
+    /// The vertex at `p` moved by Loop's rules. A single sharp edge, which ends there, counts as smooth.
     fn moved(&self, p: DVec3) -> DVec3 {
         match self.sharp {
             _ if self.count == 0.0 => p,

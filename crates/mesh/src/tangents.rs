@@ -8,13 +8,22 @@ use crate::{Mesh, MeshError};
 
 impl Mesh {
     /// The mesh with a tangent t a vertex by `MikkTSpace` (Mikkelsen 2008, "Simulation of wrinkled surfaces
-    /// revisited"), what normal maps are made for and glTF asks for.
+    /// revisited"), the tangents of normal maps in glTF and most tools.
     ///
     /// x, y, z of a tangent are a unit vector toward which u grows, perpendicular to the normal n; w is 1 or −1, so
-    /// that w·(n × t) is the way up in the image, where v falls. Vertices are split where the triangles around them do
-    /// not agree, as on the seam of a mirrored texture, and those of no triangle are left out. Where the texture
-    /// coordinates give no direction, any vector perpendicular to n is taken. Triangles keep their order; the size of
-    /// the mesh is of no account.
+    /// that w·(n × t) points up in the image, where v decreases. Vertices are split where the triangles around them
+    /// have different tangents, as on the seam of a mirrored texture, and unused ones are dropped. If the texture
+    /// coordinates give no direction, an arbitrary vector perpendicular to n is used. Triangles keep their order; the
+    /// result does not depend on the size of the mesh.
+    ///
+    /// ```
+    /// use bevy_math::Vec4;
+    /// use halfway_mesh::{Mesh, Plane};
+    ///
+    /// let plane = Mesh::from(Plane::default()).with_tangents()?;
+    /// assert_eq!(plane.tangents().expect("just made")[0], Vec4::new(1.0, 0.0, 0.0, 1.0));
+    /// # Ok::<(), halfway_mesh::MeshError>(())
+    /// ```
     ///
     /// # Errors
     /// The mesh has no texture coordinates.
@@ -22,7 +31,7 @@ impl Mesh {
         self.with_tangents_of(0)
     }
 
-    /// The same by one of the [sets](Self::uv_set) of texture coordinates.
+    /// [`with_tangents`](Self::with_tangents) for another [set](Self::uv_set) of texture coordinates.
     ///
     /// # Errors
     /// The mesh does not have it.
@@ -39,7 +48,7 @@ impl Mesh {
     }
 }
 
-/// The mesh as the algorithm sees it, and what it says of each corner.
+/// The mesh as the algorithm sees it, and the tangents that it computes for each corner.
 struct Corners<'a> {
     mesh: &'a Mesh,
     positions: Vec<[f32; 3]>,
@@ -94,7 +103,7 @@ impl Geometry for Corners<'_> {
 
     fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
         let n = self.mesh.normals()[self.vertex(face, corner)];
-        // The algorithm's w·(n × t) is the way in which v grows.
+        // The algorithm's w·(n × t) is the direction in which v grows.
         let (t, w) = space.map_or((Vec3::ZERO, 1.0), |space| {
             let [x, y, z, w] = space.tangent_encoded();
             (Vec3::new(x, y, z), -w)

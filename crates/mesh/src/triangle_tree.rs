@@ -1,11 +1,11 @@
-//! Triangles by place: a tree of boxes that finds the nearest one, and those along a ray.
+//! A bounding volume hierarchy of triangles that finds the nearest one, and those along a ray.
 
 use bevy_math::{DVec3, Vec3};
 
 /// Three corners.
 pub(crate) type TriangleCorners = [DVec3; 3];
 
-/// Triangles, found by place. `C` gives the corners of each by its number; they are not kept.
+/// A tree of triangles. `C` gives the corners of each by its number; they are not stored.
 pub(crate) struct TriangleTree<C> {
     corners: C,
     /// The numbers of the triangles, leaf by leaf.
@@ -23,11 +23,11 @@ struct Node {
     count: u32,
 }
 
-/// So many triangles are not worth a box more.
+/// The most triangles in a leaf.
 const LEAF: usize = 8;
 
 impl<C: Fn(u32) -> [Vec3; 3]> TriangleTree<C> {
-    /// Of at least one triangle.
+    /// A tree of at least one triangle.
     pub(crate) fn new(count: u32, corners: C) -> Self {
         let key = |number: u32| (corners(number).into_iter().map(|corner| corner / 3.0).sum(), number);
         let mut keys: Vec<(Vec3, u32)> = (0..count).map(key).collect();
@@ -65,14 +65,14 @@ impl<C: Fn(u32) -> [Vec3; 3]> TriangleTree<C> {
             if node.count == 0 {
                 let halves = [number + 1, node.next as usize].map(|half| (self.nodes[half].distance_squared(p), half));
                 let [a, b] = halves;
-                // The nearer half is looked at first.
+                // The nearer half is visited first.
                 waiting.extend(if a.0 < b.0 { [b, a] } else { [a, b] });
             }
         }
         (least2.sqrt(), nearest)
     }
 
-    /// Whether `meets` holds for one of the triangles, by their numbers, that the ray may meet.
+    /// Whether `meets` holds for one of the triangles, by their numbers, that the ray may hit.
     pub(crate) fn any_along(&self, ray: &Ray, meets: impl Fn(u32) -> bool + Copy) -> bool {
         self.any_below(0, ray, meets)
     }
@@ -96,7 +96,7 @@ pub(crate) struct Ray {
     pub(crate) reach: f64,
 }
 
-/// The tree over the triangles of these numbers, found by their centroids, which come after `before` others.
+/// The tree of these triangles, given by their centroids; `before` triangles are in earlier leaves.
 fn build(keys: &mut [(Vec3, u32)], before: usize, corners: &impl Fn(u32) -> [Vec3; 3], nodes: &mut Vec<Node>) {
     let this = nodes.len();
     if keys.len() <= LEAF {
@@ -128,10 +128,10 @@ impl Node {
         p.distance_squared(p.clamp(self.min.as_dvec3(), self.max.as_dvec3()))
     }
 
-    /// Whether the ray meets the sphere around the box.
+    /// Whether the ray may hit the sphere around the box.
     fn may_meet(&self, ray: &Ray) -> bool {
         let (min, max) = (self.min.as_dvec3(), self.max.as_dvec3());
-        // Above what rounding may take away.
+        // Enlarged by more than rounding may take away.
         let radius = 0.5 * min.distance(max) * (1.0 + 1e-12);
         let toward = 0.5 * (min + max) - ray.origin;
         let along = toward.dot(ray.direction);
@@ -156,7 +156,7 @@ fn distance_squared(p: DVec3, [a, b, c]: TriangleCorners) -> f64 {
     if n2 > 0.0 && weights.iter().all(|&weight| weight >= 0.0) {
         return ap.dot(n).powi(2) / n2;
     }
-    // The nearest side is one that the point is beyond.
+    // The nearest side is one that the point lies beyond.
     let sides = weights.into_iter().zip([[b, c], [c, a], [a, b]]).filter(|(weight, _)| n2 <= 0.0 || *weight < 0.0);
     let distances2 = sides.map(|(_, [from, to])| {
         let side = to - from;
@@ -195,8 +195,8 @@ mod tests {
     }
 
     #[test]
-    fn the_tree_finds_what_looking_at_all_finds() {
-        // Triangles and points at places that repeat, by the golden ratio.
+    fn the_tree_finds_the_nearest_triangle() {
+        // Triangles and points at positions that repeat, by the golden ratio.
         let place = |i: u32| {
             let t = f64::from(i) * 0.618_033_988_749_895;
             DVec3::new(t.fract(), (t * 3.7).fract(), (t * 11.3).fract())

@@ -1,47 +1,4 @@
-//! Draws on the CPU, without a graphics driver: lit triangles in tiles of the picture, with vectors as wide as the CPU
-//! has. It knows neither a graphics interface nor an ECS; what is drawn is plain data, a [`Pass`].
-//!
-//! ```
-//! use halfway_lighting::Samples;
-//! use halfway_lighting::record::{InstanceRecord, MaterialRecord, SurfaceRecord};
-//! use halfway_raster::{ClearTiles, DrawCall, Lens, Output, Pass, Pieces, PixelFormat, Rasterizer, RasterOptions};
-//! use halfway_raster::{TriangleOrder, VertexLists};
-//!
-//! # fn main() -> Result<(), halfway_raster::RasterError> {
-//! let triangle = [[-1.0, -1.0, -3.0], [1.0, -1.0, -3.0], [0.0, 1.0, -3.0]];
-//! let mesh = Pieces::new(&triangle, VertexLists::default(), &[0, 1, 2], &[], TriangleOrder::Clustered)?;
-//! let red = MaterialRecord { base: [1.0, 0.0, 0.0], ..MaterialRecord::default() };
-//! let mut bytes = vec![0; 64 * 64 * 4];
-//! Rasterizer::new(RasterOptions::default())?.draw(
-//!     &Pass {
-//!         size: [64, 64],
-//!         samples: Samples::One,
-//!         pixels: PixelFormat::SrgbBytes,
-//!         clear: [0.0; 3],
-//!         lens: Lens { scale: [2.0, 2.0], near: 0.1 },
-//!         local_viewer: true,
-//!         lights: &[],
-//!         lists: &[],
-//!         surfaces: &[SurfaceRecord { front: red, ..SurfaceRecord::default() }],
-//!         instances: &[InstanceRecord {
-//!             eye_from_model: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
-//!             normal: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-//!             surface: 0,
-//!         }],
-//!         meshes: &[&mesh],
-//!         maps: &[],
-//!         surroundings: None,
-//!         draws: &[DrawCall { indices: 0..3, instances: 0..1, ..DrawCall::default() }],
-//!     },
-//!     Output::Bytes(&mut bytes),
-//!     &mut ClearTiles::default(),
-//! )?;
-//! assert_eq!(bytes[4 * (32 * 64 + 32)..][..4], [255, 0, 0, 255]);
-//! # Ok(())
-//! # }
-//! ```
-//!
-//! The same pass gives the same bits on every width of vectors, with any number of threads and on every machine.
+#![doc = include_str!("../README.md")]
 #![expect(clippy::inline_always, reason = "what is not inlined is not compiled for the CPU's vectors")]
 #![expect(
     clippy::needless_range_loop,

@@ -16,6 +16,19 @@ use thiserror::Error;
 use crate::output::{AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, write_picture};
 
 /// Makes the target a texture of `size` pixels. Part of `HalfwayPlugins::headless`.
+///
+/// ```no_run
+/// use bevy_app::App;
+/// use bevy_math::UVec2;
+/// use halfway_record::HeadlessPlugin;
+/// use halfway_render::{RenderPlugin, render_picture};
+///
+/// let mut app = App::new();
+/// app.add_plugins((HeadlessPlugin { size: UVec2::new(640, 480) }, RenderPlugin::default()));
+/// let picture = render_picture(&mut app)?;
+/// assert_eq!(picture.dimensions(), (640, 480));
+/// # Ok::<(), halfway_render::RenderError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HeadlessPlugin {
     /// Width and height in pixels, each at least 1.
@@ -28,23 +41,34 @@ impl Plugin for HeadlessPlugin {
     }
 }
 
-/// Which frames to draw and where to write them. As a plugin it gives the App a runner that records and exits.
+/// The frames to draw and the files to write. As a plugin it gives the App a runner that records and exits.
+///
+/// ```
+/// use bevy_math::UVec2;
+/// use halfway_record::Recording;
+///
+/// // Two seconds of an animated PNG.
+/// let mut recording = Recording::new("turntable.png".into());
+/// recording.frames = 0..60;
+/// recording.size = UVec2::new(320, 240);
+/// assert_eq!(recording.rate, 30);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
     /// The file. One frame makes a picture: `.png` or `.exr`. More make an animated PNG, or a file each where the path
     /// has a `{}`, which becomes the frame's number with four digits.
     pub path: PathBuf,
-    /// The frames to keep, counted from 0; those before the first run as well, since what moves goes on from
-    /// frame to frame, and are drawn small, or in full where the camera's intensity policy follows the picture before.
-    /// Default 0..1.
+    /// The frames to keep, counted from 0. Those before the first run as well, since motion continues from frame to
+    /// frame; they are drawn small, or in full if the camera's intensity policy depends on the frame before. Default
+    /// 0..1.
     pub frames: Range<u32>,
     /// Width and height in pixels. Default 1280 × 720.
     pub size: UVec2,
-    /// Bits a channel, as [`PictureFormat::of`] takes them; `None` is the format's own.
+    /// Bits a channel, as [`PictureFormat::from_path`] takes them; `None` is the format's default.
     pub bits: Option<u32>,
-    /// Frames a second: how far the App's time moves on between frames. Default 30.
+    /// Frames a second: the App's time advances by 1/`rate` between frames. Default 30.
     pub rate: u16,
-    /// Where to put a contact sheet of up to 16 of the frames, if anywhere.
+    /// The file for a contact sheet of up to 16 of the frames, if any.
     pub contact_sheet: Option<PathBuf>,
 }
 
@@ -52,7 +76,7 @@ impl Recording {
     /// The default size.
     pub const SIZE: UVec2 = UVec2::new(1280, 720);
 
-    /// The first frame, 1280 × 720, to `path`.
+    /// Records the first frame, at 1280 × 720, to `path`.
     pub fn new(path: PathBuf) -> Self {
         Self { path, frames: 0..1, size: Self::SIZE, bits: None, rate: 30, contact_sheet: None }
     }
@@ -94,12 +118,12 @@ impl Plugin for Recording {
     }
 }
 
-/// Says on standard error how many frames of an animation are done; on a terminal as a bar, else every tenth part.
+/// Reports the progress of an animation on standard error; on a terminal as a bar, else every tenth part.
 fn on_stderr(done: u32, of: u32) -> Continue {
     const WIDTH: u32 = 40;
     if of > 1 {
         let mut stderr = std::io::stderr().lock();
-        // Whoever closed standard error does not want to hear.
+        // A closed standard error is ignored.
         let _ = if stderr.is_terminal() {
             let full = (WIDTH * done / of) as usize;
             let end = if done == of { "\n" } else { "" };
@@ -113,10 +137,16 @@ fn on_stderr(done: u32, of: u32) -> Continue {
     Continue::Yes
 }
 
-/// Reads a size in pixels as people write it, such as `1280x720`.
+/// Parses a size in pixels, such as `1280x720`.
+///
+/// ```
+/// assert_eq!(halfway_record::parse_size("640x480")?, bevy_math::UVec2::new(640, 480));
+/// assert!(halfway_record::parse_size("640").is_err());
+/// # Ok::<(), String>(())
+/// ```
 ///
 /// # Errors
-/// Says what was expected: each side from 1 to 16384.
+/// The message names the expected sizes: each side from 1 to 16384.
 pub fn parse_size(text: &str) -> Result<UVec2, String> {
     let side = |text: &str| text.parse::<u32>().ok().filter(|side| (1..=16384).contains(side));
     text.split_once(['x', 'X', '×'])
@@ -129,7 +159,7 @@ pub fn parse_size(text: &str) -> Result<UVec2, String> {
 pub enum Continue {
     /// Draw the next frame.
     Yes,
-    /// Stop; nothing is left of an animation, finished files of a sequence stay.
+    /// Stop; an animation leaves no file, finished files of a sequence stay.
     No,
 }
 
@@ -151,7 +181,7 @@ pub enum RecordError {
     /// There is no frame in the range.
     #[error("frames {}..{}: the range is empty; expected A..B with A below B", .0.start, .0.end)]
     NoFrames(Range<u32>),
-    /// It was stopped from outside.
+    /// The progress function stopped it.
     #[error("stopped at frame {0}")]
     Stopped(u32),
 }
@@ -163,16 +193,16 @@ pub struct FrameToDraw {
     pub number: u32,
     /// Width and height in pixels.
     pub size: UVec2,
-    /// What a pixel has to hold so that the file can be written without loss.
+    /// The pixels with which the file can be written without loss.
     pub pixels: Pixels,
 }
 
-/// Runs `app` frame by frame and writes what it draws. Time moves on by exactly 1/rate a frame, so that recordings
-/// repeat, to the byte on the same adapter. `progress` is told how many frames are done of how many, and may stop the
-/// work.
+/// Runs `app` frame by frame and writes the pictures. Time advances by exactly 1/rate a frame, so that recordings
+/// repeat, to the byte on the same adapter. `progress` is called with the number of finished frames and of all frames,
+/// and may stop the work.
 ///
 /// # Errors
-/// The first thing that kept a frame from being drawn or written.
+/// The first error of drawing or writing a frame.
 pub fn record(
     app: &mut App,
     recording: &Recording,
@@ -181,11 +211,11 @@ pub fn record(
     record_with(app, recording, |app, _| Ok(render_picture(app)?), progress)
 }
 
-/// The same with a drawer of its own, such as [`ReferenceDrawing::picture`](crate::ReferenceDrawing::picture). For each
-/// frame that is kept, and for those before on which it depends, `draw` runs the App once and gives the picture.
+/// [`record`] with another renderer, such as [`ReferenceDrawing::picture`](crate::ReferenceDrawing::picture). For each
+/// frame that is kept, and for those before on which it depends, `draw` runs the App once and returns the picture.
 ///
 /// # Errors
-/// The first thing that kept a frame from being drawn or written.
+/// The first error of drawing or writing a frame.
 pub fn record_with(
     app: &mut App,
     recording: &Recording,
@@ -199,7 +229,7 @@ pub fn record_with(
     let pixels = if recording.is_animation() {
         Pixels::Byte
     } else {
-        PictureFormat::of(&recording.path_of(0), recording.bits)?.pixels()
+        PictureFormat::from_path(&recording.path_of(0), recording.bits)?.pixels()
     };
     let [full, small] =
         [recording.size, (recording.size / SMALLER).max(UVec2::ONE)].map(|size| Headless { size, pixels });
@@ -227,11 +257,11 @@ pub fn record_with(
     sink.finish(encoding(app))
 }
 
-/// How many times smaller the frames before the first are along each side.
+/// The factor by which frames before the first are scaled down along each side.
 const SMALLER: u32 = 16;
 
-/// Whether what the camera shows may depend on the picture before, so that all have to be drawn. A camera that is not
-/// there before the first frame may be of either kind.
+/// Whether the camera's picture may depend on the frame before, so that all frames have to be drawn. A camera that is
+/// spawned later may be of either kind.
 fn depends_on_the_frame_before(app: &mut App) -> bool {
     let world = app.world_mut();
     let mut cameras = world.query::<&Camera>();
@@ -251,20 +281,20 @@ fn encoding(app: &mut App) -> Encoding {
     camera(app).encoding
 }
 
-/// The world's camera; a default one where there is none, which whoever draws will refuse.
+/// The world's camera; a default one where there is none, which the renderer will refuse.
 pub(crate) fn camera(app: &mut App) -> Camera {
     let world = app.world_mut();
     world.query::<&Camera>().iter(world).next().copied().unwrap_or_default()
 }
 
-/// Where frames go.
+/// The destination of frames.
 struct Sink<'a> {
     recording: &'a Recording,
     animation: Option<AnimationWriter>,
     sheet: Option<(&'a Path, ContactSheet)>,
 }
 
-/// Whether both names lead to one file, there already or not.
+/// Whether both paths lead to one file, existing or not.
 fn is_same_file(a: &Path, b: &Path) -> bool {
     if a.file_name() != b.file_name() {
         // Different names may still be links to one file.
@@ -289,10 +319,10 @@ impl<'a> Sink<'a> {
                 return Err(OutputError::Bits { file, bits, expected: "8 in an animated PNG" }.into());
             }
         } else {
-            PictureFormat::of(&recording.path_of(0), recording.bits)?;
+            PictureFormat::from_path(&recording.path_of(0), recording.bits)?;
         }
         if let Some(sheet) = &recording.contact_sheet {
-            PictureFormat::of(sheet, Some(8))?;
+            PictureFormat::from_path(sheet, Some(8))?;
             if recording.frames.clone().any(|frame| is_same_file(&recording.path_of(frame), sheet)) {
                 return Err(RecordError::SheetOverFrame(sheet.clone()));
             }
@@ -316,7 +346,7 @@ impl<'a> Sink<'a> {
             animation.frame(picture)?;
         } else {
             let path = recording.path_of(frame);
-            let format = PictureFormat::of(&path, recording.bits)?;
+            let format = PictureFormat::from_path(&path, recording.bits)?;
             write_picture(picture, &path, format, encoding)?;
         }
         if let Some(path) = &recording.contact_sheet {

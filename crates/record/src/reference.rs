@@ -11,7 +11,7 @@ use image::DynamicImage;
 
 use crate::recording::{FrameToDraw, RecordError, camera};
 
-/// How frames are drawn without a graphics adapter: in f64 on the CPU.
+/// Draws frames with the reference renderer: in f64 on the CPU, without a graphics adapter.
 ///
 /// ```no_run
 /// use bevy_app::App;
@@ -30,19 +30,19 @@ use crate::recording::{FrameToDraw, RecordError, camera};
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ReferenceDrawing {
-    /// What is drawn of each object. Default [`Mode::Mesh`].
+    /// The geometry that is drawn for each object. Default [`Mode::Mesh`].
     pub mode: Mode,
-    /// This number squared is the samples a pixel. `None`, the default, is 2 where the camera has four samples, else 1.
+    /// The square root of the samples a pixel. `None`, the default, is 2 if the camera has four samples, else 1.
     pub supersampling: Option<u32>,
 }
 
-/// What the last picture of the App was divided by, where it was.
+/// The divisor of the App's last picture, where it was divided.
 #[derive(Resource)]
 struct LastDivisor(f64);
 
 impl ReferenceDrawing {
-    /// Runs the App once and draws what is there then. `progress` is told how many tiles of the picture are done of how
-    /// many, from any thread, and may stop the work.
+    /// Runs the App once and draws it. `progress` is called with the number of finished tiles of the picture and of all
+    /// tiles, from any thread, and may stop the work.
     ///
     /// # Errors
     /// [`RecordError::Oracle`] for a scene that cannot be drawn, [`RecordError::Stopped`].

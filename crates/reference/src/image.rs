@@ -7,6 +7,15 @@ use image::{DynamicImage, Rgb, RgbImage, Rgba32FImage, RgbaImage};
 
 /// A picture of linear intensities in f64, top row first, three channels; and, where it is known, which pixels show an
 /// object and which the background.
+///
+/// ```
+/// use halfway_lighting::Encoding;
+/// use halfway_reference::Image;
+///
+/// let image = Image::new(2, 1, vec![[0.0; 3], [1.0, 0.5, 2.0]]).with_background([0.0; 3]);
+/// assert_eq!(image.covered(), Some(&[false, true][..]));
+/// assert_eq!(image.to_bytes(Encoding::Srgb).get_pixel(1, 0).0, [255, 188, 255]);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     width: u32,
@@ -26,7 +35,7 @@ impl Image {
         Self { width, height, pixels, covered: None, divisor: None }
     }
 
-    /// The same picture, told which pixels show an object.
+    /// The picture with the pixels that show an object.
     ///
     /// # Panics
     /// There is not one entry a pixel.
@@ -36,7 +45,7 @@ impl Image {
         Self { covered: Some(covered), ..self }
     }
 
-    /// The same picture, all of it divided by a number, which it keeps: by
+    /// The picture divided by a number, which it remembers: by
     /// [`Intensity::Renormalize`](halfway_lighting::Intensity::Renormalize).
     #[must_use]
     pub fn divided(self, divisor: f64) -> Self {
@@ -44,30 +53,30 @@ impl Image {
         Self { divisor: Some(divisor), ..self }.scaled(by.recip())
     }
 
-    /// What all of it was divided by, if so.
+    /// The number that it was divided by, if any.
     pub fn divisor(&self) -> Option<f64> {
         self.divisor
     }
 
-    /// The same picture, brighter or darker.
+    /// The picture, brighter or darker.
     #[must_use]
     pub(crate) fn scaled(self, factor: f64) -> Self {
         self.mapped(|channel| channel * factor)
     }
 
-    /// The same picture with each channel put through a function.
+    /// The picture with a function applied to each channel.
     #[must_use]
     pub(crate) fn mapped(mut self, of: impl Fn(f64) -> f64) -> Self {
         self.pixels.iter_mut().flatten().for_each(|channel| *channel = of(*channel));
         self
     }
 
-    /// The largest channel that is a number; 0 where there is none above.
+    /// The largest channel that is not NaN; 0 if none is above 0.
     pub fn largest(&self) -> f64 {
         self.pixels.iter().flatten().copied().fold(0.0, f64::max)
     }
 
-    /// The same picture, in which every pixel of exactly this colour counts as background.
+    /// The picture, in which every pixel of exactly this colour counts as background.
     #[must_use]
     #[expect(clippy::float_cmp, reason = "what is cleared to a colour holds exactly that")]
     pub fn with_background(self, background: [f64; 3]) -> Self {
@@ -75,21 +84,21 @@ impl Image {
         self.with_coverage(covered)
     }
 
-    /// Linear intensities as they are; alpha is dropped.
+    /// From linear intensities; alpha is dropped.
     pub fn from_float(image: &Rgba32FImage) -> Self {
         let pixels = image.pixels().map(|p| [p.0[0], p.0[1], p.0[2]].map(f64::from)).collect();
         Self::new(image.width(), image.height(), pixels)
     }
 
-    /// Bytes decoded to the intensities they stand for; alpha is dropped.
+    /// From bytes, decoded to intensities; alpha is dropped.
     pub fn from_bytes(image: &RgbaImage, encoding: Encoding) -> Self {
         let table: [f64; 256] = std::array::from_fn(|byte| encoding.decode(byte as f64 / 255.0));
         let pixels = image.pixels().map(|p| [p.0[0], p.0[1], p.0[2]].map(|byte| table[usize::from(byte)])).collect();
         Self::new(image.width(), image.height(), pixels)
     }
 
-    /// A decoded picture of 8 or 16 bits, whose values are decoded to the intensities they stand for, or one in
-    /// floating point, whose intensities stand as they are. Alpha is dropped.
+    /// From a decoded picture: values of 8 or 16 bits are decoded to intensities, floating-point ones are intensities
+    /// already. Alpha is dropped.
     pub fn from_decoded(image: &DynamicImage, encoding: Encoding) -> Self {
         use DynamicImage as D;
         match image {
@@ -122,7 +131,7 @@ impl Image {
         self.pixels[y as usize * self.width as usize + x as usize]
     }
 
-    /// Some rows as a picture of their own.
+    /// A range of rows as a picture.
     ///
     /// # Panics
     /// They lie outside.
@@ -138,7 +147,7 @@ impl Image {
         }
     }
 
-    /// Whether each pixel shows an object, where that is known.
+    /// Whether each pixel shows an object, if that is known.
     pub fn covered(&self) -> Option<&[bool]> {
         self.covered.as_deref()
     }

@@ -1,4 +1,4 @@
-//! How halfway draws: batches, and what draws them, wgpu by its shaders or the CPU without a driver.
+#![doc = include_str!("../README.md")]
 //!
 //! [`RenderPlugin`] adds the way of a frame, [`RenderSet`] by [`RenderSet`], to a schedule of any
 //! `bevy_app` App. The target is a texture ([`Headless`]) unless a window brings a surface

@@ -1,18 +1,7 @@
-//! Scene files: cameras, lights, materials and meshes as JSON, read, checked, written and put into a world.
+#![doc = include_str!("../README.md")]
 //!
-//! [`SceneFile`] is the file as a value: [`SceneFile::read`] reads one and says exactly what is wrong with it,
-//! [`SceneFile::write`] writes one. [`spawn()`] turns it into entities. The format is described in
-//! `docs/scene-format.md`, and as a JSON schema in `docs/scene.schema.json` ([`json_schema`]).
-//!
-//! ```
-//! use halfway_scene::SceneFile;
-//!
-//! let scene = SceneFile::from_json(r#"{"objects": [{"mesh": {"teapot": {}}}]}"#, "example").unwrap();
-//! assert_eq!(scene.size, [1280, 720]);
-//!
-//! let error = SceneFile::from_json(r#"{"objects": [{"mesh": {"teapot": {"divisons": 4}}}]}"#, "example").unwrap_err();
-//! assert_eq!(error.key(), Some("objects[0].mesh.teapot.divisons"));
-//! ```
+//! The format is described in `docs/scene-format.md`, and as a JSON schema in `docs/scene.schema.json`
+//! ([`json_schema`]). [`SceneFile`] is the file as a value, and [`spawn()`] turns it into entities.
 
 mod check;
 mod defaults;

@@ -76,7 +76,7 @@ impl Object for MeshEntry {
 
     fn check_whole(&self) -> Check {
         match self {
-            Self::Path(path) if Format::of(path).is_none() => {
+            Self::Path(path) if Format::from_path(path).is_none() => {
                 Err(KeyProblem::new("path", format!("is {}; {KNOWN_MODELS}", path.display())))
             }
             _ => Ok(()),

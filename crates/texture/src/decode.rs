@@ -1,4 +1,4 @@
-//! From the bytes of a file to texels in linear light.
+//! Decodes image files into texels in linear light.
 
 use std::fs::File;
 use std::io::{BufRead, Cursor, Read, Seek, SeekFrom};
@@ -10,27 +10,35 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, ImageResult, L
 use crate::error::TextureError;
 use crate::texels::{TexelImage, check_size};
 
-/// What the numbers of an image mean.
+/// The meaning of an image's values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum TexelMeaning {
-    /// A color: red, green and blue are encoded by the sRGB curve, and decoded here; alpha is not.
+    /// A color: red, green and blue are encoded by the sRGB curve and decoded here; alpha is linear.
     #[default]
     Color,
-    /// Data, such as normals: all numbers stand as they are.
+    /// Data, such as normals: all values are used as they are.
     Data,
 }
 
-/// The most bytes that are read of a file.
+/// The longest file that is read, in bytes.
 const LONGEST_FILE: u64 = 1 << 28;
 
-/// The image in a PNG, JPEG, Radiance HDR or EXR file.
+/// Reads a PNG, JPEG, Radiance HDR or EXR file.
+///
+/// ```
+/// use std::path::Path;
+/// use halfway_texture::{TexelMeaning, TextureError, load};
+///
+/// let error = load(Path::new("missing.png"), TexelMeaning::Color).unwrap_err();
+/// assert!(matches!(error, TextureError::Read { .. }));
+/// ```
 ///
 /// # Errors
-/// The file cannot be read, is too long or no regular file, or what [`decode`] refuses.
+/// The file cannot be read, is too long or not a regular file, or [`decode`] refuses it.
 pub fn load(path: &Path, meaning: TexelMeaning) -> Result<TexelImage, TextureError> {
     let image = || path.display().to_string();
     let read = |reason: std::io::Error| TextureError::Read { image: image(), reason: reason.to_string() };
-    // Asked before it is opened: opening a pipe waits for its other end.
+    // Checked before it is opened: opening a pipe waits for its other end.
     if !std::fs::metadata(path).map_err(read)?.is_file() {
         return Err(TextureError::NotAFile { image: image() });
     }
@@ -42,20 +50,27 @@ pub fn load(path: &Path, meaning: TexelMeaning) -> Result<TexelImage, TextureErr
     decode(&bytes, &image(), meaning)
 }
 
-/// The image in the bytes of a PNG, JPEG, Radiance HDR or EXR file, told apart by how they begin. `name` is what errors
-/// call it.
+/// Decodes the bytes of a PNG, JPEG, Radiance HDR or EXR file, told apart by their first bytes. Error messages call the
+/// image `name`.
 ///
-/// Grey becomes red, green and blue alike; without an alpha channel alpha is 1; palettes and the inks of JPEG become
-/// the colors they stand for. Values of 8 and 16 bits are taken over 255 and 65535; those of HDR and EXR are floats,
-/// linear already, and stand as they are, whatever `meaning` says.
+/// Grey becomes equal red, green and blue; without an alpha channel alpha is 1; palettes and CMYK JPEG are converted to
+/// RGB. Values of 8 and 16 bits are divided by 255 and 65535; those of HDR and EXR are floats, linear already, and are
+/// used as they are, whatever the `meaning`.
+///
+/// ```
+/// use halfway_texture::{TexelMeaning, decode};
+///
+/// let error = decode(b"not an image", "bricks.png", TexelMeaning::Color).unwrap_err();
+/// assert!(error.to_string().starts_with("bricks.png: "));
+/// ```
 ///
 /// # Errors
-/// Bytes that are none of these, NaN or an infinite number in a texel, an image that is broken, empty or too large, or
-/// memory that is refused. The size is checked before memory is taken for it.
+/// Bytes in none of these formats, NaN or an infinite number in a texel, an image that is broken, empty or too large,
+/// or an allocation that fails. The size is checked before memory is allocated.
 pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelImage, TextureError> {
     let mut file = Cursor::new(bytes);
     if guessed(&mut file, name)? == Some(ImageFormat::Jpeg) && !has_end_of_jpeg(bytes) {
-        // The decoder would make the rest gray.
+        // The decoder would fill the rest with gray.
         return Err(broken(name, "the file ends before the picture does"));
     }
     let decoder = opened(file, name, Limits::default())?;
@@ -93,12 +108,12 @@ pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelIm
     Ok(TexelImage::checked(width, height, texels))
 }
 
-/// The numbers of a file as they are stored: for pictures that are judged, not for surfaces. `name` is what errors call
-/// the file.
+/// The values of a file as they are stored: for pictures to compare, not for surfaces. Error messages call the file
+/// `name`.
 ///
 /// # Errors
-/// Bytes that are no image, a broken one, or one beyond the `limits`; or memory that is refused. The size is checked
-/// before memory is taken for it.
+/// Bytes that are not an image, a broken one, or one beyond the `limits`; or an allocation that fails. The size is
+/// checked before memory is allocated.
 pub fn decode_stored(file: impl BufRead + Seek, name: &str, mut limits: Limits) -> Result<DynamicImage, TextureError> {
     let decoder = opened(file, name, limits.clone())?;
     limits.reserve(decoder.total_bytes()).map_err(|error| broken(name, error))?;
@@ -109,13 +124,13 @@ fn broken(name: &str, reason: impl ToString) -> TextureError {
     TextureError::Decode { image: name.into(), reason: reason.to_string() }
 }
 
-/// What begins as the file does, which is read from its start again after it.
+/// The format by the first bytes; the file is rewound.
 fn guessed(mut file: impl BufRead + Seek, name: &str) -> Result<Option<ImageFormat>, TextureError> {
     let format = ImageReader::new(&mut file).with_guessed_format().map(|reader| reader.format());
     format.and_then(|format| file.rewind().map(|()| format)).map_err(|error| broken(name, error))
 }
 
-/// The decoder of a file, which has read where the image begins.
+/// The decoder of a file, which has read the image's header.
 fn opened<'a>(
     mut file: impl BufRead + Seek + 'a,
     name: &str,
@@ -132,9 +147,9 @@ fn opened<'a>(
     })
 }
 
-/// The image of a decoder, once its memory is granted.
+/// Decodes the image after reserving its memory.
 fn finished(mut decoder: impl ImageDecoder, name: &str, limits: Limits) -> Result<DynamicImage, TextureError> {
-    // The decoder takes its memory at once, and a program that is refused it ends.
+    // The decoder allocates its memory at once, and a failed allocation would abort the program.
     let bytes = decoder.total_bytes();
     Vec::<u8>::new()
         .try_reserve_exact(bytes as usize)
@@ -145,20 +160,20 @@ fn finished(mut decoder: impl ImageDecoder, name: &str, limits: Limits) -> Resul
     })
 }
 
-/// What a decoder gives. Fuzzing found files on which decoders panic; what they leave then is dropped.
+/// Runs a decoder and turns its panics into errors. Fuzzing found files on which decoders panic.
 fn guarded<T>(name: &str, decode: impl FnOnce() -> ImageResult<T>) -> Result<T, TextureError> {
     let given = catch_unwind(AssertUnwindSafe(decode));
     given.map_err(|_| broken(name, "its decoder cannot make sense of it"))?.map_err(|error| broken(name, error))
 }
 
-/// Whether a JPEG file has the marker of its end, EOI, where one may stand (ITU-T T.81, B.1): not within a segment,
-/// such as that of a preview with an end of its own.
+/// Whether a JPEG file has an end marker, EOI, where one may stand (ITU-T T.81, B.1): not within a segment, such as
+/// that of a preview with an end of its own.
 fn has_end_of_jpeg(bytes: &[u8]) -> bool {
     let mut at = 2;
     while at + 1 < bytes.len() {
         match (bytes[at], bytes[at + 1]) {
             (0xFF, 0xD9) => return true,
-            // What stands for 0xFF in a scan, a restart, or a fill byte before a marker.
+            // An escaped 0xFF in a scan, a restart, or a fill byte before a marker.
             (0xFF, 0x00 | 0x01 | 0xD0..=0xD8) => at += 2,
             (0xFF, 0xFF) => at += 1,
             (0xFF, _) => {
@@ -187,7 +202,7 @@ fn has_whole_palette(mut file: impl BufRead + Seek) -> bool {
     file.rewind().is_ok()
 }
 
-/// The intensity that a number of the sRGB curve stands for (IEC 61966-2-1).
+/// Decodes a value by the sRGB curve (IEC 61966-2-1).
 fn srgb_decoded(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }

@@ -1,10 +1,17 @@
-//! Why an image was refused.
+//! Errors of images.
 
 use thiserror::Error;
 
 use crate::limits::{LONGEST_SIDE, MOST_TEXELS};
 
 /// Why an image was refused. `image` in the messages is the name that the caller gave, such as a path.
+///
+/// ```
+/// use halfway_texture::{TexelImage, TextureError};
+///
+/// let error = TexelImage::from_fn(2, 2, |x, _| [x as f32, f32::NAN, 0.0, 1.0]).unwrap_err();
+/// assert!(matches!(error, TextureError::NotFinite { x: 0, y: 0, .. }));
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TextureError {
@@ -13,7 +20,7 @@ pub enum TextureError {
     Read {
         /// The file.
         image: String,
-        /// What the system says.
+        /// The system's message.
         reason: String,
     },
     /// The path leads to a folder, a pipe or a device.
@@ -22,20 +29,20 @@ pub enum TextureError {
         /// The path.
         image: String,
     },
-    /// The file holds more bytes than are read.
+    /// The file is longer than the limit.
     #[error("{image}: is longer than {limit} bytes, the most that is read of an image")]
     TooLong {
         /// The file.
         image: String,
-        /// How many bytes are read.
+        /// The limit in bytes.
         limit: u64,
     },
-    /// The bytes are no image, or a broken one.
+    /// The bytes are not an image, or a broken one.
     #[error("{image}: is no image that can be read: {reason}")]
     Decode {
         /// The file.
         image: String,
-        /// What the decoder says.
+        /// The decoder's message.
         reason: String,
     },
     /// The image has no texels.
@@ -48,7 +55,7 @@ pub enum TextureError {
         /// Rows.
         height: u32,
     },
-    /// The image has more texels than are taken.
+    /// The image is larger than the limits.
     #[error(
         "{image}: is {width} × {height} texels; at most {} along a side and {} in all are expected",
         LONGEST_SIDE,
@@ -62,12 +69,12 @@ pub enum TextureError {
         /// Rows.
         height: u32,
     },
-    /// The system refuses the memory.
+    /// The allocation failed.
     #[error("{image}: {bytes} bytes of memory are refused")]
     Memory {
         /// The file.
         image: String,
-        /// How many were asked for.
+        /// The bytes asked for.
         bytes: u64,
     },
     /// A texel holds NaN or an infinite number.
@@ -79,18 +86,18 @@ pub enum TextureError {
         x: u32,
         /// The texel's row.
         y: u32,
-        /// What was found.
+        /// The value found.
         value: f32,
     },
-    /// Images that do not make up an environment.
+    /// The images do not make up an environment.
     #[error("images of {found} texels for an environment; {expected} expected")]
     Environment {
-        /// What is expected of its shape, in words.
+        /// The images expected for its shape, in words.
         expected: &'static str,
         /// The sizes of the images.
         found: String,
     },
-    /// Not one texel for each place.
+    /// The number of texels does not fit the size.
     #[error("{found} texels for an image of {width} × {height}")]
     Count {
         /// Texels in a row.
@@ -103,7 +110,7 @@ pub enum TextureError {
 }
 
 impl TextureError {
-    /// The same of an image that has a name, where it says which texel is wrong.
+    /// The error with the name of an image, in variants that name a texel.
     pub(crate) fn named(self, name: &str) -> Self {
         match self {
             Self::NotFinite { x, y, value, .. } => Self::NotFinite { image: name.into(), x, y, value },

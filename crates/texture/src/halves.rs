@@ -9,11 +9,11 @@ pub struct Level {
     pub width: u32,
     /// Rows, at least 1.
     pub height: u32,
-    /// The number of its first texel among those of all.
+    /// The index of its first texel among those of all levels.
     pub start: usize,
 }
 
-/// Images of fewer texels than this are halved by one thread: with two, they would take longer.
+/// Images of fewer texels than this are halved by one thread: two would take longer.
 const PARALLEL: usize = 1 << 15;
 
 /// Half of a side, rounded down, at least 1.
@@ -21,8 +21,8 @@ pub(crate) fn half(side: u32) -> u32 {
     (side / 2).max(1)
 }
 
-/// What of one row or column lies under a texel of the smaller image: its first and last neighbour, and how much of
-/// each lies there, in parts of the larger image's texels times the smaller one's count.
+/// The part of a row or column under a texel of the smaller image: its first and last neighbour, and the overlap with
+/// each, in units of the larger image's texels times the smaller one's count.
 struct Under {
     first: usize,
     shares: Vec<f64>,
@@ -39,8 +39,8 @@ fn under(from: usize, to: usize) -> Vec<Under> {
     (0..to).map(share).collect()
 }
 
-/// Writes the texels of a row of the smaller image from `source`, the texels of the larger one that lie under it: the
-/// number of the texel in the row, and of the neighbour under it.
+/// The weighted mean of the larger image's texels under a texel of the smaller one; `source` gives them by their number
+/// in the row or column.
 fn mean(under: &Under, whole: f64, source: impl Fn(usize) -> [f32; 4]) -> [f32; 4] {
     let mut sum = [0.0_f64; 4];
     for (k, covered) in under.shares.iter().enumerate() {
@@ -51,7 +51,7 @@ fn mean(under: &Under, whole: f64, source: impl Fn(usize) -> [f32; 4]) -> [f32; 
     sum.map(|sum| (sum / whole) as f32)
 }
 
-/// The rows of an image with `width` texels in place of `size[0]`, each the mean of what lies under it, by area.
+/// The image with `width` texels in a row in place of `size[0]`, each the mean of the area under it.
 pub(crate) fn narrower(texels: &[[f32; 4]], size: [u32; 2], width: u32) -> Vec<[f32; 4]> {
     let ([from, height], to) = (size.map(|side| side as usize), width as usize);
     let under = under(from, to);
@@ -69,7 +69,7 @@ pub(crate) fn narrower(texels: &[[f32; 4]], size: [u32; 2], width: u32) -> Vec<[
     means
 }
 
-/// The same of columns: `height` rows in place of `size[1]`.
+/// The image with `height` rows in place of `size[1]`, each texel the mean of the area under it.
 pub(crate) fn lower(texels: &[[f32; 4]], size: [u32; 2], height: u32) -> Vec<[f32; 4]> {
     let ([width, from], to) = (size.map(|side| side as usize), height as usize);
     let under = under(from, to);

@@ -1,4 +1,4 @@
-//! What puts images onto a surface.
+//! The components that put images onto a surface.
 
 use bevy_app::{App, Plugin};
 use bevy_ecs::component::Component;
@@ -12,12 +12,25 @@ use crate::sampling::{Channel, Sampling};
 use crate::texels::TexelImage;
 use crate::uv::UvTransform;
 
-/// An image with its pyramid, as an asset. Its clones share their texels.
+/// An image with its pyramid, as an asset. Clones share the texels.
+///
+/// ```
+/// use bevy_app::App;
+/// use halfway_asset::Assets;
+/// use halfway_texture::{TexelImage, Texture, TexturePlugin};
+///
+/// let mut app = App::new();
+/// app.add_plugins(TexturePlugin);
+/// let stripes = TexelImage::from_fn(8, 8, |x, _| if x % 2 == 0 { [1.0; 4] } else { [0.0, 0.0, 0.0, 1.0] })?;
+/// let handle = app.world_mut().resource_mut::<Assets<Texture>>().add(stripes);
+/// assert_eq!(app.world().resource::<Assets<Texture>>().get(&handle).unwrap().0.size(), [8, 8]);
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture(pub Pyramid);
 
 impl Texture {
-    /// What stands for an image that is missing or broken: [`Pyramid::missing`].
+    /// The placeholder for a missing or broken image: [`Pyramid::missing`].
     pub fn missing() -> Self {
         Self(Pyramid::missing())
     }
@@ -29,10 +42,10 @@ impl From<TexelImage> for Texture {
     }
 }
 
-/// What an image on an object says of its surface.
+/// The property of a surface that an image modulates.
 ///
-/// t is what the filter makes of the texels, taken into 0 to 1, of [`SurfaceMap::channel`] where it is one number.
-/// Where something is multiplied, it is by 1 + a·(t − 1), a being [`SurfaceMap::amount`].
+/// t is the filtered value of the texels, clamped to 0 … 1; where it is one number, of [`SurfaceMap::channel`]. Images
+/// that multiply do so by 1 + a·(t − 1), a being [`SurfaceMap::amount`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MapKind {
     /// Its color multiplies the ambient and the diffuse reflectance, and its alpha the opacity, unless there is an
@@ -42,20 +55,19 @@ pub enum MapKind {
     Specular,
     /// Its color multiplies the emission.
     Emission,
-    /// Its number multiplies the opacity.
+    /// Its value multiplies the opacity.
     Opacity,
-    /// Its number multiplies the exponent of highlights, a matched one after it is matched: those of lights where they
-    /// are shaded at the fragments, and what an environment mirrors everywhere.
+    /// Its value multiplies the exponent of highlights, a matched one after it is matched: those of lights shaded at
+    /// fragments, and the reflection of an environment everywhere.
     Shininess,
-    /// Its number multiplies the ambient terms: baked ambient occlusion.
+    /// Its value multiplies the ambient terms: baked ambient occlusion.
     Occlusion,
-    /// Its colors are normals in the space of the mesh's tangents, (2t − 1)·(a, a, 1), where light is shaded at the
-    /// fragments; elsewhere it does nothing.
+    /// Its colors are normals in tangent space, (2t − 1)·(a, a, 1). Used where light is shaded at the fragments,
+    /// ignored elsewhere.
     Normal,
-    /// Its numbers, as they are, are heights above the surface in a lengths of the mesh, by which normals are turned
-    /// (Blinn
-    /// 1978), where light is shaded at the fragments; elsewhere it does nothing. Beside a [`Normal`](Self::Normal) it
-    /// does nothing either.
+    /// Its values, not clamped, are heights above the surface in units of a lengths of the mesh, by which normals are
+    /// perturbed (Blinn 1978). Used where light is shaded at the fragments, ignored elsewhere and beside a
+    /// [`Normal`](Self::Normal).
     Height,
 }
 
@@ -71,10 +83,10 @@ impl MapKind {
         Self::Normal,
         Self::Height,
     ];
-    /// How many there are.
+    /// The number of kinds.
     pub const COUNT: usize = 8;
 
-    /// What the numbers of its files mean.
+    /// The meaning of its files' values.
     pub fn meaning(self) -> TexelMeaning {
         match self {
             Self::Color | Self::Specular | Self::Emission => TexelMeaning::Color,
@@ -96,13 +108,13 @@ impl MapKind {
         }
     }
 
-    /// Whether it turns normals, and does not multiply.
+    /// Whether it perturbs normals rather than multiplying.
     pub fn is_relief(self) -> bool {
         matches!(self, Self::Normal | Self::Height)
     }
 }
 
-/// Which of a mesh's two sets of texture coordinates.
+/// One of a mesh's two sets of texture coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum UvSet {
     /// The first.
@@ -115,20 +127,20 @@ pub enum UvSet {
 /// An image on a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceMap {
-    /// The image. While it is not there, [`Pyramid::missing`] is drawn.
+    /// The image. Until the asset exists, [`Pyramid::missing`] is drawn.
     pub texture: Handle<Texture>,
-    /// How it is looked up.
+    /// Its filters and its wrapping.
     pub sampling: Sampling,
-    /// The coordinates of the mesh that it takes. A mesh that does not have them is drawn without it.
+    /// The set of texture coordinates. A mesh without it is drawn without the map.
     pub uv_set: UvSet,
-    /// Where on it they lie.
+    /// The transform of the coordinates.
     pub transform: UvTransform,
-    /// The number that counts where one does.
+    /// The channel, for maps that use one.
     pub channel: Channel,
-    /// a: how much it counts, as [`MapKind`] says. 0 to 1 where it multiplies, any finite number where it turns
+    /// a: its strength, see [`MapKind`]. 0 to 1 for images that multiply, any finite number for those that perturb
     /// normals. Default 1.
     pub amount: f32,
-    /// What highlights take of a [`Normal`](MapKind::Normal) beside where it points. Of other kinds it does nothing.
+    /// The use of a [`Normal`](MapKind::Normal) map by highlights at a distance. Ignored for other kinds.
     pub far_normals: FarNormals,
 }
 
@@ -141,7 +153,7 @@ impl From<Handle<Texture>> for SurfaceMap {
 }
 
 impl SurfaceMap {
-    /// The first of its numbers that cannot be used.
+    /// The first invalid field.
     fn wrong(&self, kind: MapKind) -> Option<WrongMap> {
         const NAMES: [&str; 3] = ["transform.offset", "transform.rotation", "transform.scale"];
         if let Some((name, value)) = self.transform.wrong() {
@@ -158,25 +170,45 @@ impl SurfaceMap {
     }
 }
 
-/// A number of [`Maps`] that cannot be used.
+/// An invalid field of [`Maps`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WrongMap {
     /// The map.
     pub kind: MapKind,
-    /// The number's place in its [`SurfaceMap`].
+    /// The field of its [`SurfaceMap`].
     pub field: &'static str,
-    /// The number.
+    /// Its value.
     pub value: f32,
-    /// Those that can be used, in words.
+    /// The valid values, in words.
     pub expected: &'static str,
 }
 
-/// The images on an object, one of each [`MapKind`] at most; beside its material, on both sides.
+/// The images on an object, one of each [`MapKind`] at most, used beside its material, on both sides.
 ///
-/// Each counts at every fragment, whatever the shading: under Gouraud and flat shading the ambient, the diffuse and the
-/// specular terms are interpolated apart, so that each is multiplied by its own. What belongs to the evaluation of
-/// light (shininess, normals, heights) does nothing there, since it is the vertices and triangles that are lit; but for
-/// what an environment mirrors, which takes the shininess at every fragment.
+/// Each is looked up at every fragment, whatever the shading: under Gouraud and flat shading the ambient, the diffuse
+/// and the specular terms are interpolated separately, so that each is multiplied by its own. Maps that change the
+/// evaluation of light (shininess, normals, heights) are ignored there, since vertices and triangles are lit; except
+/// that the reflection of an environment uses the shininess at every fragment.
+///
+/// ```
+/// use bevy_app::App;
+/// use halfway_asset::Assets;
+/// use halfway_texture::{MapKind, Maps, SurfaceMap, TexelImage, Texture, TexturePlugin, UvTransform};
+///
+/// let mut app = App::new();
+/// app.add_plugins(TexturePlugin);
+/// let mut images = app.world_mut().resource_mut::<Assets<Texture>>();
+/// let color = images.add(TexelImage::from_fn(2, 2, |x, y| [x as f32, y as f32, 0.5, 1.0])?);
+/// let gloss = images.add(TexelImage::from_fn(2, 2, |x, _| [x as f32; 4])?);
+///
+/// // The color repeats four times along each axis; the gloss map has half its effect.
+/// let tiled = UvTransform { scale: [4.0, 4.0], ..UvTransform::default() };
+/// let maps = Maps::new(MapKind::Color, SurfaceMap { transform: tiled, ..SurfaceMap::from(color) })
+///     .with(MapKind::Specular, SurfaceMap { amount: 0.5, ..SurfaceMap::from(gloss) });
+/// assert_eq!((maps.iter().count(), maps.wrong()), (2, None));
+/// app.world_mut().spawn(maps);
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Maps([Option<SurfaceMap>; MapKind::COUNT]);
 
@@ -186,14 +218,14 @@ impl Maps {
         Self::default().with(kind, map)
     }
 
-    /// These, and one more, in the place of one of its kind.
+    /// Adds a map, replacing one of its kind.
     #[must_use]
     pub fn with(mut self, kind: MapKind, map: impl Into<SurfaceMap>) -> Self {
         self.set(kind, Some(map.into()));
         self
     }
 
-    /// Sets or takes away a map.
+    /// Sets or removes a map.
     pub fn set(&mut self, kind: MapKind, map: Option<SurfaceMap>) {
         self.0[kind as usize] = map;
     }
@@ -203,17 +235,17 @@ impl Maps {
         self.0[kind as usize].as_ref()
     }
 
-    /// Those that are there.
+    /// All maps, in the order of their slots.
     pub fn iter(&self) -> impl Iterator<Item = (MapKind, &SurfaceMap)> {
         MapKind::ALL.into_iter().zip(&self.0).filter_map(|(kind, map)| Some((kind, map.as_ref()?)))
     }
 
-    /// The first of their numbers that cannot be used.
+    /// The first invalid field.
     pub fn wrong(&self) -> Option<WrongMap> {
         self.iter().find_map(|(kind, map)| map.wrong(kind))
     }
 
-    /// Those that a mesh with these sets of coordinates shows, each in its slot. Of a normal and a height the normal.
+    /// The maps that a mesh with these sets of coordinates shows, each in its slot; a normal map hides a height map.
     pub fn shown(&self, has_uvs: [bool; 2]) -> [Option<&SurfaceMap>; MapKind::COUNT] {
         let mut shown = self.0.each_ref().map(|map| map.as_ref().filter(|map| has_uvs[map.uv_set as usize]));
         if shown[MapKind::Normal as usize].is_some() {

@@ -1,10 +1,10 @@
-//! The moments of normals, texel by texel: what LEAN mapping takes means of.
+//! The moments of normals, texel by texel: the inputs of LEAN mapping.
 
-/// Slopes are kept up to this, 86° from the surface's normal: so steep ones would outweigh all others.
+/// Slopes are clamped to this, 86° from the surface's normal: steeper ones would dominate the means.
 const STEEPEST: f64 = 16.0;
 
-/// Of each normal its slopes x/z and y/z, and their products xx, xy and yy. Slopes of normals that lie flat or point
-/// into the surface are kept within the steepest.
+/// For each normal its slopes x/z and y/z, and their products xx, xy and yy. Slopes of normals that lie flat or point
+/// into the surface are clamped.
 pub(crate) fn moments(normals: &[[f32; 4]]) -> [Vec<[f32; 4]>; 2] {
     let slopes = || normals.iter().map(slopes_of);
     let squares = slopes().map(|[x, y]| [x * x, x * y, y * y].map(|number| number as f32));

@@ -1,13 +1,21 @@
 //! Noise in space, and solids made of it.
 //!
-//! Everything is a function of a point and of how wide a part of space is seen there, `width`: how far the point moves
-//! from a pixel to the next, in units of the noise's cells. What changes faster than a pixel can show is faded to its
-//! mean.
+//! Everything is a function of a point and of the `width` of the footprint there: how far the point moves from a pixel
+//! to the next, in units of the noise's cells. Detail finer than a pixel fades to its mean.
+//!
+//! ```
+//! use halfway_texture::noise::{checker, fractal, marble};
+//!
+//! let p = [0.3_f64, 1.7, 2.2];
+//! assert!((0.0..=1.0).contains(&marble(p, 5, 0.01)));
+//! // Seen from afar, all that is left is the mean.
+//! assert_eq!((fractal(p, 5, 10.0), checker(p, [1000.0; 3])), (0.0, 0.5));
+//! ```
 
 use crate::lookup::Number;
 
-/// Three numbers that look random, of three: `pcg3d` of Jarzynski and Olano, "Hash Functions for GPU Rendering", 2020.
-/// Additions and products of 32 bits, which are the same on every machine and in WGSL.
+/// Three pseudo-random numbers from three: `pcg3d` of Jarzynski and Olano, "Hash Functions for GPU Rendering", 2020.
+/// 32-bit additions and products, the same on every machine and in WGSL.
 pub fn hash([x, y, z]: [u32; 3]) -> [u32; 3] {
     let [mut x, mut y, mut z] = [x, y, z].map(|v| v.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
     let stir = |x: &mut u32, y: &mut u32, z: &mut u32| {
@@ -23,7 +31,7 @@ pub fn hash([x, y, z]: [u32; 3]) -> [u32; 3] {
 
 /// Gradient noise of Perlin, "Improving Noise", 2002: 0 at whole numbers, within −1.04 to 1.04, its mean 0. Each cell's
 /// corners have one of the twelve directions to the edges of a cube (four of them twice), by [`hash`]; between them
-/// they are mixed by 6t⁵ − 15t⁴ + 10t³. Of points without a number, 0.
+/// they are interpolated by 6t⁵ − 15t⁴ + 10t³. 0 at points that are not finite.
 pub fn gradient_noise<T: Number>(p: [T; 3]) -> T {
     let floor = p.map(T::floor);
     let Some(cell) = whole(floor) else { return T::zero() };
@@ -40,7 +48,7 @@ pub fn gradient_noise<T: Number>(p: [T; 3]) -> T {
     mix(mix(row(0), row(2), t), mix(row(4), row(6), t), r)
 }
 
-/// The product of one of sixteen directions with a vector.
+/// The dot product of one of sixteen directions with a vector.
 fn toward<T: Number>(number: u32, [x, y, z]: [T; 3]) -> T {
     let u = if number < 8 { x } else { y };
     let v = match number {
@@ -56,14 +64,14 @@ fn faded_in<T: Number>(t: T) -> T {
     t * t * t * (t * (t * T::of(6.0) - T::of(15.0)) + T::of(10.0))
 }
 
-/// The cell of a point, modulo 2³². Nothing for points that have none.
+/// The cell of a point, modulo 2³²; `None` if it is not finite.
 fn whole<T: Number>(floor: [T; 3]) -> Option<[u32; 3]> {
     let of = |x: T| x.to_i64().map(|number| number as u32);
     Some([of(floor[0])?, of(floor[1])?, of(floor[2])?])
 }
 
-/// How much of noise is left that is seen by parts so wide, in its cells: all up to ¼, nothing from ¾ on, 3t² − 2t³
-/// between (Ebert et al., *Texturing and Modeling*, 2003, on fading before aliasing).
+/// The fraction of noise that is left under a footprint of this width, in its cells: all up to ¼, nothing from ¾ on,
+/// 3t² − 2t³ between (Ebert et al., *Texturing and Modeling*, 2003, on fading before aliasing).
 pub fn left<T: Number>(width: T) -> T {
     let t = ((width - T::of(0.25)) * T::of(2.0)).max(T::zero()).min(T::one());
     T::one() - t * t * (T::of(3.0) - T::of(2.0) * t)
@@ -73,16 +81,16 @@ pub fn left<T: Number>(width: T) -> T {
 pub const MOST_OCTAVES: u32 = 16;
 
 /// A fractal sum: Σ 2⁻ᵏ·noise(2ᵏ·p) over `octaves` octaves, at most [`MOST_OCTAVES`], each faded by [`left`] of
-/// 2ᵏ·`width`; those that are gone are not evaluated. About −1 to 1, and within −2.08 to 2.08.
+/// 2ᵏ·`width`; octaves that have vanished are not evaluated. About −1 to 1, and within −2.08 to 2.08.
 pub fn fractal<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
     let (mut sum, mut frequency, mut amplitude) = (T::zero(), T::one(), T::one());
     for octave in 0..octaves.min(MOST_OCTAVES) {
         let weight = left(frequency * width.abs());
-        // What is no number is gone, too.
+        // NaN counts as vanished.
         if weight.is_nan() || weight <= T::zero() {
             break;
         }
-        // Octaves of one origin would all be 0 there.
+        // Octaves with the same origin would all be 0 there.
         let offset = T::of(f64::from(octave) * 0.37);
         sum = sum + weight * amplitude * gradient_noise(p.map(|x| x * frequency + offset));
         frequency = frequency + frequency;
@@ -103,8 +111,8 @@ pub fn wood<T: Number>([x, y, z]: [T; 3], width: T) -> T {
     wave((x * x + z * z).sqrt() + grain, width)
 }
 
-/// ½ + ½ sin 2πt, of which a part so wide is seen: times sin(πw)/(πw), the mean of a wave over a box, until that is 0
-/// at w = 1.
+/// ½ + ½ sin 2πt under a footprint of width w: times sin(πw)/(πw), the mean of a wave over a box, up to its first 0 at
+/// w = 1.
 fn wave<T: Number>(t: T, width: T) -> T {
     let half = T::of(0.5);
     let angle = T::of(std::f64::consts::PI) * width.abs();
@@ -124,15 +132,14 @@ fn wave<T: Number>(t: T, width: T) -> T {
 }
 
 /// A checker of cubes of side 1: 0 or 1, or the mean over a box of these widths along the axes, exactly. Widths below
-/// [`LEAST_WIDTH`] count as that. So a plane that lies just between cubes is not one or the other by a rounding, but ½
-/// all over.
+/// [`LEAST_WIDTH`] count as that, so that a plane just between cubes is ½ everywhere instead of speckled by rounding.
 pub fn checker<T: Number>(p: [T; 3], widths: [T; 3]) -> T {
     let half = T::of(0.5);
     let product = (0..3).fold(T::one(), |product, axis| product * square_wave(p[axis], widths[axis].abs()));
     if product.is_finite() { half - half * product } else { half }
 }
 
-/// The narrowest box that [`checker`] takes the mean over, in cubes.
+/// The narrowest box over which [`checker`] averages, in cubes.
 pub const LEAST_WIDTH: f32 = 1e-3;
 
 /// The mean of a wave over a box: 1 from 0 to 1, −1 from 1 to 2, and so on.
@@ -141,7 +148,7 @@ fn square_wave<T: Number>(x: T, width: T) -> T {
     let width = width.max(T::of(LEAST_WIDTH.into()));
     let period = |x: T| x - two * (x * half).floor();
     if width <= one {
-        // The box meets one step at most: by how far it lies from it, which is exact where the step is far.
+        // The box contains one step at most; the distance from it is exact where the step is far.
         let step = (x + half).floor();
         let sign = one - two * period(step);
         return sign * ((x - step) / (half * width)).max(-one).min(one);

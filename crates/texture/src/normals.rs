@@ -1,7 +1,21 @@
-//! Normals in images: made of heights, and looked up from afar without losing their roughness.
+//! Normal maps: made from heights, and filtered without losing their roughness.
 //!
-//! A normal (x, y, z) in the surface's own axes, x along u, y upward on the image, against v, and z out of the surface,
-//! stands in the first three numbers of a texel as (x, y, z)/2 + ½, as files have it.
+//! A normal (x, y, z) in tangent space, x along u, y upward on the image, against v, and z out of the surface, is
+//! stored in the first three values of a texel as (x, y, z)/2 + ½, as files have it.
+//!
+//! ```
+//! use halfway_texture::normals::{from_heights, toksvig};
+//! use halfway_texture::{TexelImage, Wrap};
+//!
+//! let waves = TexelImage::from_fn(16, 1, |x, _| [(x as f32 * 0.4).sin(); 4])?;
+//! let normals = from_heights(&waves, [Wrap::Repeat; 2], 2.0)?;
+//! assert!(normals.texels()[0][0] < 0.5); // It rises to the right, so the normal leans to the left.
+//!
+//! // From afar, shorter mean normals make wider and fainter highlights.
+//! let [exponent, factor] = toksvig(0.9_f64, 100.0);
+//! assert!(exponent < 100.0 && factor < 1.0);
+//! # Ok::<(), halfway_texture::TextureError>(())
+//! ```
 
 use crate::error::TextureError;
 use crate::lookup::{self, Number, wrapped_index};
@@ -9,9 +23,9 @@ use crate::pyramid::Pyramid;
 use crate::sampling::{Sampling, Wrap};
 use crate::texels::TexelImage;
 
-/// The normals of the heights in the first numbers of an image's texels: (−∂h/∂x, −∂h/∂y, 1) at length 1, y upward.
-/// Slopes are half the difference of the two neighbours, wrapped as said. `strength` is the height of 1 in widths of a
-/// texel; negative ones turn bumps into dents.
+/// The normals of the heights in the first channel of an image: (−∂h/∂x, −∂h/∂y, 1), normalized, y upward. Slopes are
+/// half the difference of the two neighbours, wrapped by `wrap`. `strength` is the height of 1 in widths of a texel;
+/// negative ones turn bumps into dents.
 ///
 /// # Errors
 /// A strength that is not finite: [`TextureError::NotFinite`].
@@ -32,29 +46,30 @@ pub fn from_heights(heights: &TexelImage, wrap: [Wrap; 2], strength: f32) -> Res
     })
 }
 
-/// What highlights take of a map of normals that are smaller than a pixel, where light is shaded at the fragments.
+/// The treatment of highlights on a normal map whose texels are smaller than a pixel, where light is shaded at the
+/// fragments.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FarNormals {
-    /// Where their mean points: highlights from afar are too sharp and too bright, and they flicker.
+    /// The direction of their mean only: highlights from afar are too sharp and too bright, and they flicker.
     #[default]
     Mean,
-    /// And how long it is: wider and fainter highlights, by [`toksvig`] of [`mean_length`].
+    /// The length of their mean too: wider and fainter highlights, by [`toksvig`] of [`mean_length`].
     Toksvig,
-    /// How far their slopes lie apart along each axis (Olano and Baker, "LEAN Mapping", 2010): highlights that need not
-    /// be round, by [`lean_lobe`] about the normal of the mean slopes. Reads [`Pyramid::moments`], two images of the
-    /// same size, in place of the normals. What mirrors an environment stays round: one exponent, by [`spread_length`].
+    /// The covariance of their slopes (Olano and Baker, "LEAN Mapping", 2010): anisotropic highlights, by [`lean_lobe`]
+    /// about the normal of the mean slopes. Reads [`Pyramid::moments`], two images of the same size, in place of the
+    /// normals. The reflection of an environment stays isotropic: one exponent, by [`spread_length`].
     Lean,
 }
 
 impl FarNormals {
-    /// All, in the order of what they cost.
+    /// All, cheapest first.
     pub const ALL: [Self; 3] = [Self::Mean, Self::Toksvig, Self::Lean];
 }
 
-/// How long the mean of normals is that a texel stands for, 0 to 1, had their slopes been `s` times as steep: with |n|
-/// the length that it has, |n|/(|n| + s²·(1 − |n|)). For (1 − |n|)/|n| is the variance of their slopes in [`toksvig`].
+/// The length of the mean of a texel's normals, 0 to 1, had their slopes been `s` times as steep: with |n| the length
+/// that it has, |n|/(|n| + s²·(1 − |n|)), since (1 − |n|)/|n| is the variance of their slopes in [`toksvig`].
 ///
-/// A vector that is mirrored by the normals turns twice as far as they do: for the exponent of (r·v)^s take 2·s.
+/// A vector that is reflected at the normals turns twice as far as they do: for the exponent of (r·v)^s take 2·s.
 pub fn mean_length<T: Number>(texel: [T; 3], s: T) -> T {
     let [x, y, z] = texel.map(|number| T::of(2.0) * number - T::one());
     let length = (x * x + y * y + z * z).sqrt();
@@ -64,19 +79,20 @@ pub fn mean_length<T: Number>(texel: [T; 3], s: T) -> T {
     length / (length + s * s * (T::one() - length)).max(T::of(f64::from(f32::MIN_POSITIVE)))
 }
 
-/// What Toksvig, "Mipmapping Normal Maps", 2005, makes of a highlight (n·h)^s where the mean of the normals has this
-/// length: the exponent f·s and the factor (1 + f·s)/(1 + s), with f = |n|/(|n| + s(1 − |n|)).
+/// The correction of Toksvig, "Mipmapping Normal Maps", 2005, for a highlight (n·h)^s where the mean of the normals has
+/// this length: the exponent f·s and the factor (1 + f·s)/(1 + s), with f = |n|/(|n| + s(1 − |n|)).
 pub fn toksvig<T: Number>(length: T, exponent: T) -> [T; 2] {
     let length = length.max(T::zero()).min(T::one());
     let f = length / (length + exponent * (T::one() - length)).max(T::of(f64::from(f32::MIN_POSITIVE)));
     [f * exponent, (T::one() + f * exponent) / (T::one() + exponent)]
 }
 
-/// What a part of an image of normals has, by its [moments](Pyramid::moments): Olano and Baker, "LEAN Mapping", 2010.
+/// The mean slopes of a part of a normal map, by its [moments](Pyramid::moments): Olano and Baker, "LEAN Mapping",
+/// 2010.
 ///
-/// Of each normal there are the slopes b = (x/z, y/z), and b·bᵀ. Their means over a part of the image are means of
-/// texels, so that every filter does; and the covariance, the mean of b·bᵀ less the square of that of b, is how rough
-/// that part is along each axis.
+/// Each normal has the slopes b = (x/z, y/z), and b·bᵀ. Their means over a part of the image are means of texels, so
+/// that every filter applies; and the covariance, the mean of b·bᵀ minus the square of that of b, is the roughness of
+/// that part along each axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlopeSpread<T> {
     /// The mean slopes, x/z and y/z.
@@ -86,7 +102,7 @@ pub struct SlopeSpread<T> {
 }
 
 impl<T: Number> SlopeSpread<T> {
-    /// What a footprint sees of it, by the filters of [`lookup::filtered`].
+    /// The slopes under a footprint, by the filters of [`lookup::filtered`].
     pub fn seen(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], footprint: [[T; 2]; 2]) -> Self {
         let [slopes, squares] = pyramid.moments();
         let [x, y, ..] = lookup::filtered(slopes, sampling, uv, footprint);
@@ -94,42 +110,42 @@ impl<T: Number> SlopeSpread<T> {
         Self { mean: [x, y], squares: [xx, xy, yy] }
     }
 
-    /// The normal of the mean slopes, as texels have it, but not of length 1: (x, y, 1)/2 + ½.
+    /// The normal of the mean slopes, encoded as in texels, but not normalized: (x, y, 1)/2 + ½.
     pub fn texel(&self) -> [T; 3] {
         let [x, y] = self.mean.map(|slope| T::of(0.5) * slope + T::of(0.5));
         [x, y, T::one()]
     }
 
-    /// [`slope_covariance`] of it.
+    /// Its [`slope_covariance`].
     pub fn covariance(&self, s: T) -> [T; 3] {
         slope_covariance(self.mean, self.squares, s)
     }
 }
 
-/// The covariance of slopes that are `s` times as steep as those of which these are the means, and the means of their
-/// products: of x with x, of x with y, of y with y. `s` is taken to be at most 10⁶, so that all of it is finite.
+/// The covariance of slopes that are `s` times as steep, from the mean slopes and the means of their products: of x
+/// with x, of x with y, of y with y. `s` is clamped to 10⁶, so that all of it is finite.
 pub fn slope_covariance<T: Number>([x, y]: [T; 2], [xx, xy, yy]: [T; 3], s: T) -> [T; 3] {
     let s = s.max(T::of(-1e6)).min(T::of(1e6));
     let [xx, yy] = [xx - x * x, yy - y * y].map(|variance| variance.max(T::zero()));
     [xx, xy - x * y, yy].map(|number| s * s * number)
 }
 
-/// The length of the mean of normals whose slopes have this covariance, as [`toksvig`] takes it: 1/(1 + ½ tr Σ). It is
-/// what a highlight that has no axes takes.
+/// The length of the mean of normals whose slopes have this covariance, as [`toksvig`] takes it: 1/(1 + ½ tr Σ). Used
+/// by isotropic highlights.
 pub fn spread_length<T: Number>([xx, _, yy]: [T; 3]) -> T {
     (T::one() + T::of(0.5) * (xx + yy)).recip()
 }
 
-/// What becomes of a highlight (n·h)^s over normals whose slopes have this covariance Σ: it is as wide as Σ + I/s says,
-/// whose inverse comes first (of x with x, of x with y, of y with y); the last number is 1/(s·√det(Σ + I/s)), which
-/// keeps its energy. Along a direction d, of length 1, the exponent is dᵀ(Σ + I/s)⁻¹d, as Ashikhmin and Shirley, "An
-/// Anisotropic Phong BRDF Model", 2000, have it: `halfway_lighting::equations::axial_exponent`. Without roughness it is
-/// s all around.
+/// The lobe of a highlight (n·h)^s over normals whose slopes have this covariance Σ. Its width is Σ + I/s, whose
+/// inverse comes first (of x with x, of x with y, of y with y); the last number is 1/(s·√det(Σ + I/s)), which keeps its
+/// energy. Along a direction d, of length 1, the exponent is dᵀ(Σ + I/s)⁻¹d, as Ashikhmin and Shirley, "An Anisotropic
+/// Phong BRDF Model", 2000, have it: `halfway_lighting::equations::axial_exponent`. Without roughness it is s in all
+/// directions.
 pub fn lean_lobe<T: Number>(covariance: [T; 3], s: T) -> [T; 4] {
-    // Of s·Σ + I, which is finite for each s; within what squares of f32 can be.
+    // Of s·Σ + I, which is finite for each s; clamped to the range of squares of f32.
     let [xx, xy, yy] = covariance.map(|number| (s * number).max(T::of(-1e12)).min(T::of(1e12)));
     let [xx, yy] = [xx + T::one(), yy + T::one()];
-    // What filters with negative weights leave is no covariance always; of one the determinant is not less.
+    // Filters with negative weights may leave no valid covariance; the determinant of a valid one is not less.
     let determinant = (xx * yy - xy * xy).max(xx + yy - T::one());
     let over = s / determinant;
     [over * yy, -over * xy, over * xx, determinant.sqrt().recip()]

@@ -1,4 +1,4 @@
-//! An image and its halves.
+//! Mipmap pyramids.
 
 use std::sync::{Arc, OnceLock};
 
@@ -8,16 +8,24 @@ use crate::ripmap::Ripmap;
 use crate::sums::SummedAreas;
 use crate::texels::TexelImage;
 
-/// An image, and images of half its width and height (rounded down, at least 1), and so on down to one texel: 4/3 of
-/// the image's memory, a little more for odd sizes. Its clones share their texels.
+/// A mipmap pyramid: an image, and images of half its width and height (rounded down, at least 1), and so on down to
+/// one texel: 4/3 of the image's memory, a little more for odd sizes. Clones share the texels.
 ///
-/// Each level is made of the one before it, in linear light: a texel is the mean of what lies under it, by area. Of
-/// even sizes these are four texels; of odd ones three in a row count, two of them in part. So no level is brighter or
-/// darker than the image as a whole, none leaves the range of its texels, and none depends on what lies beyond the
-/// image.
+/// Each level is made of the one before it, in linear light: a texel is the mean of the area under it. Of even sizes
+/// these are four texels; of odd ones three in a row, two of them in part. So every level has the mean of the image,
+/// stays in the range of its texels, and does not depend on the wrapping.
 ///
-/// [`Ripmap`], [`SummedAreas`] and [moments](Self::moments), which some filters and highlights need, are made when they
-/// are first asked for, and shared by the clones.
+/// [`Ripmap`], [`SummedAreas`] and [moments](Self::moments), which some filters and highlights need, are made on first
+/// use and shared by the clones.
+///
+/// ```
+/// use halfway_texture::{Pyramid, TexelImage};
+///
+/// let pyramid = Pyramid::new(TexelImage::from_fn(8, 4, |x, _| [x as f32; 4])?);
+/// assert_eq!(pyramid.levels().len(), 4); // 8 × 4, 4 × 2, 2 × 1, 1 × 1
+/// assert_eq!(pyramid.level(3), [[3.5; 4]]);
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Pyramid {
     levels: Arc<[Level]>,
@@ -55,7 +63,7 @@ impl Pyramid {
         Self { levels: levels.into(), texels: texels.into(), more: Arc::default() }
     }
 
-    /// What stands for an image that is missing or broken: a checker of magenta and black, 8 × 8.
+    /// The placeholder for a missing or broken image: a checker of magenta and black, 8 × 8.
     pub fn missing() -> Self {
         let texel = |at: u32| [[1.0, 0.0, 1.0, 1.0], [0.0, 0.0, 0.0, 1.0]][((at + at / 8) % 2) as usize];
         Self::new(TexelImage::checked(8, 8, (0..64).map(texel).collect()))
@@ -85,26 +93,26 @@ impl Pyramid {
         &self.texels[start..start + width as usize * height as usize]
     }
 
-    /// The image and its halves along each axis: 4 times the image's memory beside the pyramid's, kept from the first
+    /// The image and its halves along each axis: 4 times the image's memory beside the pyramid's, cached from the first
     /// call on.
     pub fn ripmap(&self) -> &Ripmap {
         self.more.ripmap.get_or_init(|| Ripmap::new(&self.texels, self.size()))
     }
 
-    /// The sums of the image's texels: twice the image's memory beside the pyramid's, kept from the first call on.
+    /// The sums of the image's texels: twice the image's memory beside the pyramid's, cached from the first call on.
     pub fn summed_areas(&self) -> &SummedAreas {
         self.more.sums.get_or_init(|| SummedAreas::new(&self.texels, self.size()))
     }
 
-    /// Of an image of normals the slopes, and their products: two more images with their pyramids, kept from the first
-    /// call on. [`SlopeSpread`](crate::normals::SlopeSpread) says what they are for.
+    /// For a normal map, its slopes and their products: two more images with their pyramids, cached from the first call
+    /// on. [`SlopeSpread`](crate::normals::SlopeSpread) explains their use.
     pub fn moments(&self) -> &[Self; 2] {
         let [width, height] = self.size();
         let made = || moments(self.level(0)).map(|texels| Self::new(TexelImage::checked(width, height, texels)));
         self.more.moments.get_or_init(made)
     }
 
-    /// Whether the two are clones of each other.
+    /// Whether one is a clone of the other.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.texels, &other.texels)
     }

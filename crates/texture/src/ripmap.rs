@@ -6,7 +6,16 @@ use crate::halves::{Level, half, lower, narrower};
 /// down to one texel: 4 times the image's memory: a ripmap (Akenine-Möller et al., *Real-Time Rendering*, on
 /// anisotropic filters).
 ///
-/// Each is made by means by area, as the levels of a [`Pyramid`](crate::Pyramid).
+/// Each is made by area means, as the levels of a [`Pyramid`](crate::Pyramid).
+///
+/// ```
+/// use halfway_texture::{Pyramid, TexelImage};
+///
+/// let pyramid = Pyramid::new(TexelImage::from_fn(8, 8, |x, y| [(x + y) as f32; 4])?);
+/// let (level, texels) = pyramid.ripmap().level([3, 0]);
+/// assert_eq!((level.width, level.height, texels[0][0]), (1, 8, 3.5));
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ripmap {
     columns: usize,
@@ -15,7 +24,7 @@ pub struct Ripmap {
 }
 
 impl Ripmap {
-    /// Of the texels of an image of this size.
+    /// From the texels of an image of this size.
     pub(crate) fn new(texels: &[[f32; 4]], [width, height]: [u32; 2]) -> Self {
         let [columns, rows] = [width, height].map(|side| side.ilog2() as usize + 1);
         let mut made =
@@ -45,7 +54,7 @@ impl Ripmap {
         self.texels.extend(texels);
     }
 
-    /// How many widths there are, and how many heights.
+    /// The number of widths, and of heights.
     pub fn counts(&self) -> [usize; 2] {
         [self.columns, self.levels.len() / self.columns]
     }

@@ -1,24 +1,23 @@
-//! How an image is looked up.
+//! Filter settings of an image.
 
-/// What is beyond the image.
+/// The continuation beyond an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Wrap {
-    /// The image again.
+    /// Repeats the image.
     #[default]
     Repeat,
-    /// The image mirrored, and then again.
+    /// Repeats the image, mirrored every other time.
     Mirror,
-    /// Its outermost texels.
+    /// Repeats its outermost texels.
     Clamp,
 }
 
-/// How the texels of one image become a value between them. `f` is the part of the way from one texel's center to the
-/// next.
+/// The filter between the texels of one image. `f` is the fraction of the way from one texel's center to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum TexelFilter {
-    /// The texel that the point lies in.
+    /// The texel that contains the point.
     Nearest,
-    /// The mean of four, weighted by 1 − f and f along each axis.
+    /// Bilinear: the mean of four, weighted by 1 − f and f along each axis.
     #[default]
     Bilinear,
     /// The uniform cubic B-spline over sixteen (Hou and Andrews 1978): smooth, softer than the texels, never beyond
@@ -29,45 +28,44 @@ pub enum TexelFilter {
     CatmullRom,
 }
 
-/// What is taken of an image at a point whose footprint is larger than a texel.
+/// The minification filter, for footprints larger than a texel.
 ///
 /// The first three go by D, the level of a square footprint. The others go by the footprint's shape: the ellipse of the
-/// points a·x + b·y with x² + y² ≤ 1, where a and b say how (u, v), in texels, change from a pixel to the next along x
-/// and along y. Its semiaxes are σ₁ ≥ σ₂, the singular values of the matrix (a b). Where σ₁ ≤ 1 the image is enlarged.
+/// points a·x + b·y with x² + y² ≤ 1, where a and b are the derivatives of (u, v), in texels, along x and y of the
+/// picture. Its semiaxes are σ₁ ≥ σ₂, the singular values of the matrix (a b). Where σ₁ ≤ 1 the image is magnified.
 ///
-/// Slopes of heights go by D under all of them.
+/// Slopes of heights go by D under all filters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LevelFilter {
-    /// The image itself, whose texels are then skipped.
+    /// The image itself, which aliases.
     None,
     /// The level nearest to D (Williams 1983).
     Nearest,
-    /// The two levels around D, weighted by the distance from it.
+    /// Trilinear: interpolates the two levels around D.
     #[default]
     Linear,
     /// The images of a [`Ripmap`](crate::Ripmap) around log₂ of √(aᵤ² + bᵤ²) along u and of √(aᵥ² + bᵥ²) along v: the
-    /// sides of a rectangle along the axes that is as spread out as the footprint.
+    /// sides of a rectangle along the axes with the variance of the footprint.
     Ripmap,
     /// The mean of that rectangle, at least a texel wide and high, by [`SummedAreas`](crate::SummedAreas).
     SummedArea,
     /// Up to 2 probes along the ellipse's long axis: N = min(σ₁/max(σ₂, 1), 2), the level is log₂(σ₁/N) by
     /// [`Linear`](Self::Linear), and the probes lie σ₁/N apart: one in the middle, and pairs around it, of which the
-    /// outermost has what is left of the weight N. With N growing, pairs come in with weight 0, so that nothing jumps.
+    /// outermost has the rest of the weight N. As N grows, pairs begin with weight 0, so that nothing jumps.
     Anisotropic2,
-    /// Up to 4 probes' weight, likewise.
+    /// Up to 4 probes.
     Anisotropic4,
-    /// Up to 8 probes' weight, likewise.
+    /// Up to 8 probes.
     Anisotropic8,
-    /// Up to 16 probes' weight, likewise.
+    /// Up to 16 probes.
     Anisotropic16,
     /// All texels in the ellipse, weighted by a Gaussian: the elliptical weighted average of Heckbert 1989, in the two
-    /// levels around log₂ of the short semiaxis. That is lengthened where it is less than 1/16 of the long one or than
-    /// a texel.
+    /// levels around log₂ of the short semiaxis, which is lengthened to at least 1/16 of the long one and to a texel.
     Elliptical,
 }
 
 impl LevelFilter {
-    /// Itself where it goes by D alone, else [`Linear`](Self::Linear): what stands for it where only D is known.
+    /// Itself if it goes by D alone, else [`Linear`](Self::Linear): the fallback where only D is known.
     #[must_use]
     pub fn by_level(self) -> Self {
         match self {
@@ -76,7 +74,7 @@ impl LevelFilter {
         }
     }
 
-    /// What of an image it reads.
+    /// The form of an image that it reads.
     pub fn form(self) -> ImageForm {
         match self {
             Self::Ripmap => ImageForm::Ripmap,
@@ -85,7 +83,7 @@ impl LevelFilter {
         }
     }
 
-    /// N at most, of those with probes.
+    /// The largest N, for filters with probes.
     pub(crate) fn most_probes(self) -> Option<u8> {
         match self {
             Self::Anisotropic2 => Some(2),
@@ -97,7 +95,7 @@ impl LevelFilter {
     }
 }
 
-/// What of an image a [`LevelFilter`] reads.
+/// The form of an image that a [`LevelFilter`] reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ImageForm {
     /// The levels of its [`Pyramid`](crate::Pyramid).
@@ -108,14 +106,25 @@ pub enum ImageForm {
     SummedAreas,
 }
 
-/// How an image is looked up: a value of each point and its footprint.
+/// The filters and the wrapping of an image: its value at a point with a footprint.
 ///
-/// D = log₂ of the longer side of the footprint in texels. Where D ≤ 0 the image is enlarged, by `magnify`. Elsewhere
-/// it is reduced: `levels` says what is taken of it, and `minify` how its levels are looked up between texels; summed
-/// areas and ellipses need no such filter. The default is trilinear.
+/// D = log₂ of the longer side of the footprint in texels. Where D ≤ 0 the image is magnified, by `magnify`. Elsewhere
+/// it is minified: `levels` chooses the levels, and `minify` interpolates within them; summed areas and ellipses need
+/// no such filter. The default is trilinear.
+///
+/// ```
+/// use halfway_texture::{LevelFilter, Pyramid, Sampling, TexelImage, Wrap, lookup};
+///
+/// let checker = Pyramid::new(TexelImage::from_fn(8, 8, |x, y| [((x + y) % 2) as f32; 4])?);
+/// let sampling = Sampling { wrap: [Wrap::Mirror; 2], levels: LevelFilter::Elliptical, ..Sampling::default() };
+/// // A long, thin footprint, as of a floor seen from the side.
+/// let [gray, ..] = lookup::filtered(&checker, &sampling, [0.4_f64, 0.4], [[0.5, 0.0], [0.0, 0.2]]);
+/// assert!((gray - 0.5).abs() < 0.1);
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Sampling {
-    /// What is beyond the image along u, and along v.
+    /// The continuation beyond the image along u, and along v.
     pub wrap: [Wrap; 2],
     /// The filter where D ≤ 0.
     pub magnify: TexelFilter,
@@ -126,7 +135,7 @@ pub struct Sampling {
 }
 
 impl Sampling {
-    /// One texel a point, whatever its size.
+    /// Unfiltered: the nearest texel, whatever its size.
     pub const NEAREST: Self = Self {
         wrap: [Wrap::Repeat; 2],
         magnify: TexelFilter::Nearest,
@@ -135,10 +144,10 @@ impl Sampling {
     };
 }
 
-/// The number of a texel that counts where one does.
+/// The channel of a texel, for maps that use one value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Channel {
-    /// The first; of a grey image any of three.
+    /// The first; in a grey image equal to the next two.
     #[default]
     Red,
     /// The second.
@@ -149,7 +158,7 @@ pub enum Channel {
     Alpha,
 }
 
-/// The texel that a number stands for that may lie beyond the image.
+/// The index of a texel that may lie beyond the image, wrapped.
 pub(crate) fn wrapped_index(wrap: Wrap, at: i64, side: u32) -> usize {
     let side = i64::from(side);
     let index = match wrap {

@@ -1,31 +1,30 @@
-//! Solids: patterns that fill space, of which surfaces show what they cut out (Peachey, "Solid Texturing of Complex
+//! Solid textures: patterns that fill space, of which surfaces show a cut (Peachey, "Solid Texturing of Complex
 //! Surfaces", and Perlin, "An Image Synthesizer", both 1985). They need no texture coordinates.
 //!
-//! *Place.* A point p of an object lies in the solid at q = M·(p, 1), M being [`SolidTexture::solid_from_object`], in
-//! cells.
+//! *Position.* A point p of an object lies in the solid at q = M·(p, 1), in cells, M being
+//! [`SolidTexture::solid_from_object`].
 //!
-//! *Footprint.* q moves by the ways a and b from a pixel to the next, along x and along y of the picture. Over a
-//! triangle p/w and 1/w are linear on the picture, w the distance along the view, so that ∂p = w·(∂(p/w) − p·∂(1/w)) by
-//! the rule of quotients, and ∂q = M₃·∂p with M₃ the first three columns of M. Of these ways are made
+//! *Footprint.* a and b are the derivatives of q along x and along y of the picture. Over a triangle p/w and 1/w are
+//! linear on the picture, w the distance along the view, so that ∂p = w·(∂(p/w) − p·∂(1/w)) by the quotient rule, and
+//! ∂q = M₃·∂p with M₃ the first three columns of M. From them follow
 //!
 //! - the width of [`Marble`](SolidKind::Marble), [`Wood`](SolidKind::Wood) and [`Noise`](SolidKind::Noise):
 //!   max(|a|, |b|), the longer side of the footprint, as [`lookup::level`](crate::lookup::level) takes it of images;
 //! - the box of [`Checker`](SolidKind::Checker): along each axis k √(aₖ² + bₖ²), the box whose variance along the axis
-//!   is that of the parallelogram of both ways.
+//!   is that of the parallelogram of a and b.
 //!
-//! *Number.* t, from 0 to 1, by [`noise`](crate::noise): `checker(q + ½)`, `marble(q)`, `wood(q)`, or ½ +
-//! ½·`fractal(q)` taken into 0 to 1. What changes faster than the footprint shows is faded to its mean there.
+//! *Value.* t, from 0 to 1, by [`noise`](crate::noise): `checker(q + ½)`, `marble(q)`, `wood(q)`, or ½ +
+//! ½·`fractal(q)` clamped to 0 … 1. Detail finer than the footprint fades to its mean.
 //!
 //! *Color.* c₀ + t·(c₁ − c₀), which multiplies the ambient and the diffuse reflectance at each fragment, whatever the
-//! shading, as
-//! [`MapKind::Color`](crate::MapKind::Color) does; both multiply where both are there.
+//! shading, as [`MapKind::Color`](crate::MapKind::Color) does; both multiply if both are there.
 
 use bevy_ecs::component::Component;
 
 use crate::lookup::Number;
 use crate::noise::{MOST_OCTAVES, checker, fractal, marble, wood};
 
-/// What fills the space of a [`SolidTexture`].
+/// The pattern of a [`SolidTexture`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SolidKind {
     /// Cubes of side 1 around whole numbers, in the first color where the sum of the three is even, else in the second:
@@ -45,20 +44,30 @@ impl SolidKind {
     pub const ALL: [Self; 4] = [Self::Checker, Self::Marble, Self::Wood, Self::Noise];
 }
 
-/// A solid that an object is cut from; beside its material, on both sides. The [module](crate::solid) has the formulas.
+/// Cuts an object from a solid pattern; used beside its material, on both sides. The [module](crate::solid) has the
+/// formulas.
 ///
-/// Renderers place points in it in single precision: at 500 units from the solid's origin to 3·10⁻⁵ of a unit. So
-/// pieces of one solid are better taken some units apart than some thousands.
+/// Renderers transform points into it in single precision: at 500 units from the solid's origin to 3·10⁻⁵ of a unit.
+/// So place several objects in one solid some units apart rather than some thousands.
+///
+/// ```
+/// use halfway_texture::{SolidKind, SolidTexture};
+///
+/// let oak = SolidTexture::new(SolidKind::Wood, [[0.35, 0.2, 0.1], [0.6, 0.4, 0.2]]).scaled(12.0);
+/// assert_eq!(oak.wrong(), None);
+/// let [red, _, blue] = oak.color_at([0.1_f64, 0.0, 0.2], [[0.0; 3]; 2]);
+/// assert!((0.34..0.61).contains(&red) && blue < red);
+/// ```
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct SolidTexture {
-    /// What fills space. Default a checker.
+    /// The pattern. Default a checker.
     pub kind: SolidKind,
-    /// How many octaves of noise marble and noise have: 1 to [`MOST_OCTAVES`]. Default 5.
+    /// The octaves of marble and noise: 1 to [`MOST_OCTAVES`]. Default 5.
     pub octaves: u32,
     /// M: the rows of the affine map from the object's space to the solid's, in cells. Finite. Default the identity: a
     /// cell is as long as a unit of the mesh.
     pub solid_from_object: [[f32; 4]; 3],
-    /// c₀ and c₁: what t = 0 and t = 1 multiply by, linear RGB, each channel 0 to 1. Default black and white.
+    /// c₀ and c₁: the factors for t = 0 and t = 1, linear RGB, each channel 0 to 1. Default black and white.
     pub colors: [[f32; 3]; 2],
 }
 
@@ -73,24 +82,24 @@ impl Default for SolidTexture {
     }
 }
 
-/// A number of a [`SolidTexture`] that cannot be used.
+/// An invalid field of a [`SolidTexture`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WrongSolid {
     /// Its field.
     pub field: &'static str,
-    /// The number.
+    /// Its value.
     pub value: f32,
-    /// Those that can be used, in words.
+    /// The valid values, in words.
     pub expected: &'static str,
 }
 
 impl SolidTexture {
-    /// One of a kind, in these colors.
+    /// A solid of this kind in these colors.
     pub fn new(kind: SolidKind, colors: [[f32; 3]; 2]) -> Self {
         Self { kind, colors, ..Self::default() }
     }
 
-    /// The same, with `cells` cells where there was one, along each axis: a larger number makes finer patterns.
+    /// With `cells` cells in place of one, along each axis: larger numbers make finer patterns.
     #[must_use]
     pub fn scaled(mut self, cells: f32) -> Self {
         for number in self.solid_from_object.iter_mut().flatten() {
@@ -99,20 +108,20 @@ impl SolidTexture {
         self
     }
 
-    /// The same with the map from the object's space to the solid's in the place of what was there, by the columns of a
-    /// matrix whose last row is 0, 0, 0, 1, as `Mat4::to_cols_array_2d` gives them.
+    /// With this map from the object's space to the solid's, by the columns of a matrix whose last row is 0, 0, 0, 1,
+    /// as `Mat4::to_cols_array_2d` gives them.
     #[must_use]
     pub fn placed(self, columns: [[f32; 4]; 4]) -> Self {
         Self { solid_from_object: [0, 1, 2].map(|row| columns.map(|column| column[row])), ..self }
     }
 
-    /// The same with these octaves.
+    /// With so many octaves.
     #[must_use]
     pub fn with_octaves(self, octaves: u32) -> Self {
         Self { octaves, ..self }
     }
 
-    /// The first of its numbers that cannot be used.
+    /// The first invalid field.
     pub fn wrong(&self) -> Option<WrongSolid> {
         if !(1..=MOST_OCTAVES).contains(&self.octaves) {
             return Some(WrongSolid { field: "octaves", value: self.octaves as f32, expected: "1 to 16" });
@@ -125,8 +134,8 @@ impl SolidTexture {
         Some(WrongSolid { field: "colors", value, expected: "0 to 1" })
     }
 
-    /// What multiplies the ambient and the diffuse reflectance at a point of the object that moves by these ways from a
-    /// pixel to the next, along x and along y.
+    /// The factor of the ambient and the diffuse reflectance at a point of the object; `ways` are its derivatives along
+    /// x and along y of the picture.
     pub fn color_at<T: Number>(&self, p: [T; 3], ways: [[T; 3]; 2]) -> [T; 3] {
         let rows = self.solid_from_object.map(|row| row.map(|number| T::of(number.into())));
         let turned = |v: [T; 3]| rows.map(|[a, b, c, _]| a * v[0] + b * v[1] + c * v[2]);
@@ -138,7 +147,7 @@ impl SolidTexture {
     }
 }
 
-/// t at a point of a solid that moves by these ways from a pixel to the next; see the [module](crate::solid).
+/// t at a point of a solid with these derivatives along x and along y of the picture; see the [module](crate::solid).
 pub fn solid_value<T: Number>(kind: SolidKind, octaves: u32, q: [T; 3], [x, y]: [[T; 3]; 2]) -> T {
     let half = T::of(0.5);
     let squared = |v: [T; 3]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];

@@ -1,10 +1,10 @@
-//! Sums of an image's texels, so that the mean of any rectangle takes a few of them.
+//! Summed-area tables, by which the mean of any rectangle takes a few lookups.
 
 use rayon::prelude::*;
 
 use crate::sampling::Wrap;
 
-/// The integral along an axis from 0 to a place that may lie beyond the image, as integrals from 0 to two places inside
+/// The integral along an axis from 0 to a point that may lie beyond the image, as integrals from 0 to two points inside
 /// it, each times a factor.
 pub(crate) fn inside(wrap: Wrap, at: f64, side: f64) -> [(f64, f64); 2] {
     let period = (at / side).floor();
@@ -12,19 +12,28 @@ pub(crate) fn inside(wrap: Wrap, at: f64, side: f64) -> [(f64, f64); 2] {
     match wrap {
         Wrap::Mirror if period.rem_euclid(2.0) >= 1.0 => [(side - rest, -1.0), (side, period + 1.0)],
         Wrap::Repeat | Wrap::Mirror => [(rest, 1.0), (side, period)],
-        // The outermost texel goes on: as far beyond as it is asked for.
+        // The outermost texel continues without end.
         Wrap::Clamp if at < 0.0 => [(1.0, at), (0.0, 0.0)],
         Wrap::Clamp if at > side => [(side, 1.0 + at - side), (side - 1.0, side - at)],
         Wrap::Clamp => [(at, 1.0), (0.0, 0.0)],
     }
 }
 
-/// At each corner (x, y) of the texels, the sum of what lies to the left of it and above it, less that many times the
-/// image's mean: a summed-area table (Crow 1984). A rectangle's sum is S(x₁, y₁) − S(x₀, y₁) − S(x₁, y₀) + S(x₀, y₀).
+/// A summed-area table (Crow 1984): at each corner (x, y) of the texels, the sum to the left and above, minus that many
+/// times the image's mean. A rectangle's sum is S(x₁, y₁) − S(x₀, y₁) − S(x₁, y₀) + S(x₀, y₀).
 ///
-/// Sums of n texels in f32 are off by up to n·2⁻²⁴ of their mean, and their differences as much. The mean is taken off
-/// first (Hensley et al. 2005), which leaves sums that grow with the contrast alone, and they are kept in f64: 32 bytes
-/// a texel, twice the image's memory.
+/// Sums of n texels in f32 are off by up to n·2⁻²⁴ of their mean, and their differences as much. Subtracting the mean
+/// first (Hensley et al. 2005) leaves sums that grow with the contrast alone, and they are stored in f64: 32 bytes a
+/// texel, twice the image's memory.
+///
+/// ```
+/// use halfway_texture::{Pyramid, TexelImage};
+///
+/// let pyramid = Pyramid::new(TexelImage::from_fn(4, 4, |x, _| [x as f32; 4])?);
+/// let table = pyramid.summed_areas();
+/// assert_eq!((table.mean()[0], table.sums().len()), (1.5, 25));
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SummedAreas {
     width: usize,
@@ -36,7 +45,7 @@ pub struct SummedAreas {
 }
 
 impl SummedAreas {
-    /// Of the texels of an image of this size.
+    /// From the texels of an image of this size.
     pub(crate) fn new(texels: &[[f32; 4]], size: [u32; 2]) -> Self {
         let [width, height] = size.map(|side| side as usize);
         let texels = &texels[..width * height];
@@ -74,7 +83,8 @@ impl SummedAreas {
         self.largest
     }
 
-    /// The sums less the mean's, row by row: one more in a row than there are columns, and one row more than there are.
+    /// The sums minus the mean's, row by row: one more in a row than there are columns, and one more row than the
+    /// image has.
     pub fn sums(&self) -> &[[f64; 4]] {
         &self.sums
     }
@@ -84,7 +94,7 @@ impl SummedAreas {
         size_of_val(&self.sums[..])
     }
 
-    /// The sum to the left of x and above y, less the mean's, each texel being a square of its value.
+    /// The sum to the left of x and above y, minus the mean's, each texel being a square of its value.
     pub(crate) fn to_corner(&self, x: f64, y: f64) -> [f64; 4] {
         let (x, y) = (x.clamp(0.0, self.width as f64), y.clamp(0.0, self.height as f64));
         let [column, row] = [(x as usize).min(self.width - 1), (y as usize).min(self.height - 1)];

@@ -3,8 +3,15 @@
 use crate::error::TextureError;
 use crate::limits::{LONGEST_SIDE, MOST_TEXELS};
 
-/// Red, green, blue and alpha in linear light, or four numbers that are no color, row by row from the top. All are
-/// finite.
+/// Red, green, blue and alpha in linear light, or four values of data, row by row from the top. All are finite.
+///
+/// ```
+/// use halfway_texture::TexelImage;
+///
+/// let gradient = TexelImage::from_fn(256, 1, |x, _| [x as f32 / 255.0, 0.0, 0.0, 1.0])?;
+/// assert_eq!((gradient.size(), gradient.texels()[255][0]), ([256, 1], 1.0));
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct TexelImage {
     width: u32,
@@ -33,7 +40,7 @@ impl TexelImage {
     /// An image whose texel in column `x` of row `y` is `texel(x, y)`.
     ///
     /// # Errors
-    /// As of [`TexelImage::new`].
+    /// See [`TexelImage::new`].
     pub fn from_fn(width: u32, height: u32, texel: impl Fn(u32, u32) -> [f32; 4]) -> Result<Self, TextureError> {
         check_size(IN_CODE, width, height)?;
         Self::new(
@@ -43,7 +50,7 @@ impl TexelImage {
         )
     }
 
-    /// What is known to be right.
+    /// From texels that are known to be valid.
     pub(crate) fn checked(width: u32, height: u32, texels: Vec<[f32; 4]>) -> Self {
         Self { width, height, texels }
     }
@@ -58,7 +65,7 @@ impl TexelImage {
         &self.texels
     }
 
-    /// The same with 0 for numbers below it.
+    /// With negative numbers clamped to 0.
     pub(crate) fn not_below_zero(mut self) -> Self {
         for number in self.texels.as_flattened_mut() {
             *number = number.max(0.0);
@@ -71,7 +78,7 @@ impl TexelImage {
     }
 }
 
-/// What images are called in errors that come from no file.
+/// The name of images without a file in errors.
 const IN_CODE: &str = "the image";
 
 pub(crate) fn check_size(image: &str, width: u32, height: u32) -> Result<(), TextureError> {

@@ -1,34 +1,41 @@
-//! What a pixel sees of an image: the mean over its footprint, integrated, which judges the filters.
+//! Ground truth for the filters: the mean of an image over a pixel's footprint, integrated.
 //!
-//! The image is taken as squares of its texels' values, as the means by area of a [`Pyramid`] take it. A pixel is a
-//! square of the picture, and each part of it counts alike. Straight lines of the picture are straight on the image, so
-//! that the footprint is exactly a quadrilateral; what a projection changes within it is how much of the pixel a texel
-//! fills.
+//! Texels are squares of constant value, as the area means of a [`Pyramid`] take them. A pixel is a square of the
+//! picture with uniform weight. Straight lines of the picture are straight on the image, so that the footprint is
+//! exactly a quadrilateral; the projection changes the fraction of the pixel that each texel fills.
 
 use crate::pyramid::Pyramid;
 use crate::sampling::Wrap;
 use crate::sums::inside;
 
-/// A projective map from places of a picture, in pixels, to (u, v): with (p, q, w) = R·(x, y, 1), u = p/w and v = q/w.
+/// A projective map from points of a picture, in pixels, to (u, v): with (p, q, w) = R·(x, y, 1), u = p/w and v = q/w.
+///
+/// ```
+/// use halfway_texture::PictureMap;
+///
+/// // A floor: the horizon is at y = 0, and v grows toward it.
+/// let floor = PictureMap { rows: [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]] };
+/// assert_eq!((floor.at([2.0, 4.0]), floor.at([2.0, -1.0])), (Some([0.5, 0.25]), None));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureMap {
-    /// The rows of R. Points with w > 0 are in front of the viewer; the others see nothing.
+    /// The rows of R. Points with w > 0 are in front of the viewer; the others map to nothing.
     pub rows: [[f64; 3]; 3],
 }
 
 impl PictureMap {
-    /// (p, q, w) at a place.
+    /// (p, q, w) at a point.
     fn homogeneous(&self, [x, y]: [f64; 2]) -> [f64; 3] {
         self.rows.map(|[a, b, c]| a * x + b * y + c)
     }
 
-    /// (u, v) at a place; none where w ≤ 0.
+    /// (u, v) at a point; `None` where w ≤ 0.
     pub fn at(&self, place: [f64; 2]) -> Option<[f64; 2]> {
         let [p, q, w] = self.homogeneous(place);
         (w > 0.0).then(|| [p / w, q / w])
     }
 
-    /// How (u, v) changes from a pixel to the next along x, and along y: the derivatives, as the filters take them.
+    /// The derivatives of (u, v) along x and along y of the picture, as the filters take them.
     pub fn footprint(&self, place: [f64; 2]) -> [[f64; 2]; 2] {
         let [p, q, w] = self.homogeneous(place);
         [0, 1].map(|axis| {
@@ -38,20 +45,33 @@ impl PictureMap {
     }
 }
 
-/// An image, ready to be integrated: 32 bytes a texel.
+/// An image prepared for integration: 32 bytes a texel.
+///
+/// ```
+/// use halfway_texture::{FootprintTruth, PictureMap, Pyramid, TexelImage, Wrap};
+///
+/// let checker = Pyramid::new(TexelImage::from_fn(2, 2, |x, y| [((x + y) % 2) as f32; 4])?);
+/// let truth = FootprintTruth::new(&checker);
+/// // A pixel as large as the image.
+/// let whole = PictureMap { rows: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+/// let [gray, ..] = truth.mean([Wrap::Repeat; 2], &whole, [0.3, 0.2], 1e-9).expect("in front of the viewer");
+/// assert!((gray - 0.5).abs() < 1e-9);
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct FootprintTruth {
     size: [usize; 2],
     mean: [f64; 4],
-    /// Of each row, at each of its width + 1 corners, the sum of the texels to the left, less that many times the mean.
+    /// For each row, at each of its width + 1 corners, the sum of the texels to the left, minus that many times the
+    /// mean.
     sums: Vec<[f64; 4]>,
 }
 
-/// A cell of a pixel is halved no more often than this.
+/// The most times that a cell of a pixel is halved.
 const DEEPEST: u32 = 24;
 
 impl FootprintTruth {
-    /// Of the image itself of a pyramid.
+    /// From the first level of a pyramid.
     pub fn new(pyramid: &Pyramid) -> Self {
         let size = pyramid.size().map(|side| side as usize);
         let texels = pyramid.level(0);
@@ -72,15 +92,14 @@ impl FootprintTruth {
         Self { size, mean, sums }
     }
 
-    /// The mean over the footprint of the pixel whose middle is `pixel`; none where a part of it lies behind the
-    /// viewer.
+    /// The mean over the footprint of the pixel whose middle is `pixel`; `None` if a part of it lies behind the viewer.
     ///
     /// A cell of the pixel, at first the whole of it, has the mean over its quadrilateral, by Green's theorem exact to
-    /// rounding but for its texels all counting alike. It is halved across the direction along which w changes more.
-    /// Where the mean of the halves differs from the cell's by more than `tolerance` in any number, each is halved
-    /// again, up to 24 times. Under affine maps the first is exact. So that none agree by accident, texels of a cell
-    /// that is not halved again differ in size by a tenth at most, and its quarters agree with it, too. The result may
-    /// be off by hundreds of times `tolerance`.
+    /// rounding except that its texels have uniform weight. It is halved across the direction along which w changes
+    /// more. Where the mean of the halves differs from the cell's by more than `tolerance` in any channel, each is
+    /// halved again, up to 24 times. Under affine maps the first is exact. To exclude accidental agreement, texels of a
+    /// cell that is not halved again differ in size by a tenth at most, and its quarters agree with it, too. The result
+    /// may be off by hundreds of times `tolerance`.
     pub fn mean(&self, wrap: [Wrap; 2], map: &PictureMap, pixel: [f64; 2], tolerance: f64) -> Option<[f64; 4]> {
         let [x, y] = pixel;
         let cell = Cell { low: [x - 0.5, y - 0.5], sides: [1.0; 2] };
@@ -115,7 +134,7 @@ impl FootprintTruth {
         mean([a, b])
     }
 
-    /// The mean over a cell's quadrilateral, less the image's: ∮ F dv over the area ∮ u dv, F the integral of a row
+    /// The mean over a cell's quadrilateral, minus the image's: ∮ F dv over the area ∮ u dv, F the integral of a row
     /// from 0 to u.
     fn of_cell(&self, wrap: [Wrap; 2], map: &PictureMap, cell: &Cell) -> [f64; 4] {
         let [width, height] = self.size.map(|side| side as f64);
@@ -123,7 +142,7 @@ impl FootprintTruth {
             let [u, v] = map.at(corner).unwrap_or_default();
             [u * width, v * height]
         });
-        // Near the origin numbers are exact: by whole periods, which change nothing.
+        // Numbers near the origin are more precise: shifted by whole periods, which change nothing.
         let period = |axis: usize| match wrap[axis] {
             Wrap::Repeat => self.size[axis] as f64,
             Wrap::Mirror => 2.0 * self.size[axis] as f64,
@@ -146,7 +165,7 @@ impl FootprintTruth {
             .map(|k| (corners[k][0] - corners[(k + 1) % 4][0]).abs() + (corners[k][1] - corners[(k + 1) % 4][1]).abs())
             .sum();
         if area.abs() <= 1e-12 * perimeter * perimeter || area == 0.0 {
-            // Seen edge on: a line, of which the middle stands for the whole.
+            // Seen edge on: a line, represented by its middle.
             let middle: [f64; 2] = std::array::from_fn(|axis| corners.iter().map(|c| c[axis]).sum::<f64>() / 4.0);
             return self.value(wrap, middle);
         }
@@ -160,7 +179,7 @@ impl FootprintTruth {
         if change[1] == 0.0 {
             return;
         }
-        // Where along the edge, as a part of it, the next line of each axis is crossed.
+        // The fraction of the edge at which the next line of each axis is crossed.
         let next = |axis: usize, line: f64| if change[axis] == 0.0 { 2.0 } else { (line - from[axis]) / change[axis] };
         let mut lines: [f64; 2] =
             std::array::from_fn(
@@ -186,7 +205,7 @@ impl FootprintTruth {
         }
     }
 
-    /// The integral of a row from 0 to u, whatever lies beyond the image.
+    /// The integral of a row from 0 to u, which may lie beyond the image.
     fn to_left(&self, wrap: [Wrap; 2], u: f64, row: i64) -> [f64; 4] {
         let [width, height] = self.size;
         let row = crate::lookup::wrapped_index(wrap[1], row, height as u32);
@@ -202,7 +221,7 @@ impl FootprintTruth {
         found
     }
 
-    /// The texel at a place, less the mean.
+    /// The texel at a point, minus the mean.
     fn value(&self, wrap: [Wrap; 2], [u, v]: [f64; 2]) -> [f64; 4] {
         let [width, height] = self.size;
         let row = crate::lookup::wrapped_index(wrap[1], v.floor() as i64, height as u32);
@@ -225,7 +244,7 @@ impl Cell {
         [[x, y], [x + width, y], [x + width, y + height], [x, y + height]]
     }
 
-    /// Whether the texels in it are about equally large: they are so as 1/w³.
+    /// Whether the texels in it are about equally large; their size goes as 1/w³.
     fn is_even(&self, map: &PictureMap) -> bool {
         let w = self.corners().map(|corner| map.homogeneous(corner)[2]);
         let [low, high] = [w.iter().copied().fold(f64::INFINITY, f64::min), w.iter().copied().fold(0.0, f64::max)];

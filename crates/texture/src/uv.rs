@@ -1,16 +1,23 @@
-//! Where on an image a surface's coordinates lie.
+//! Transforms of texture coordinates.
 
 use crate::lookup::Number;
 
-/// An affine map of texture coordinates: scaled, then turned, then moved, as `KHR_texture_transform` has it. The
-/// default leaves them as they are.
+/// An affine map of texture coordinates: scaled, then rotated, then translated, as in `KHR_texture_transform`. The
+/// default is the identity.
+///
+/// ```
+/// use halfway_texture::UvTransform;
+///
+/// let tiled = UvTransform { scale: [4.0, 2.0], offset: [0.5, 0.0], ..UvTransform::default() };
+/// assert_eq!(UvTransform::apply(&tiled.rows(), [0.25, 0.5]), [1.5, 1.0]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UvTransform {
-    /// Moved by, in widths and heights of the image. Finite. Default (0, 0).
+    /// The translation, in widths and heights of the image. Finite. Default (0, 0).
     pub offset: [f32; 2],
-    /// Turned by, in radians, counter-clockwise as the image is seen. Finite. Default 0.
+    /// The rotation in radians, counter-clockwise as the image is seen. Finite. Default 0.
     pub rotation: f32,
-    /// Stretched by. Finite. Default (1, 1).
+    /// The scale. Finite. Default (1, 1).
     pub scale: [f32; 2],
 }
 
@@ -21,7 +28,7 @@ impl Default for UvTransform {
 }
 
 impl UvTransform {
-    /// The first of its numbers that is not finite, with the name of its field.
+    /// The first field that is not finite, and its value.
     pub fn wrong(&self) -> Option<(&'static str, f32)> {
         let Self { offset: [x, y], rotation, scale: [a, b] } = *self;
         let numbers = [("offset", x), ("offset", y), ("rotation", rotation), ("scale", a), ("scale", b)];
@@ -37,7 +44,7 @@ impl UvTransform {
         [[cos * a, sin * b, x], [-sin * a, cos * b, y]]
     }
 
-    /// A point through [`rows`](Self::rows).
+    /// Applies [`rows`](Self::rows) to a point.
     pub fn apply<T: Number>(rows: &[[T; 3]; 2], uv: [T; 2]) -> [T; 2] {
         rows.map(|[a, b, c]| a * uv[0] + b * uv[1] + c)
     }

@@ -29,19 +29,19 @@ pub struct Judge {
     four: bool,
     steps: Option<f32>,
     fault: Option<Fault>,
-    /// Only whether a picture is wrong is asked, and not how.
+    /// Whether only wrong or right is asked, and not the figures.
     until_wrong: bool,
 }
 
-/// A change of the scene that only the renderer is given, to see that it is found.
+/// A change of the scene that only the renderer gets, to check that it is found.
 pub type Fault = fn(&mut SceneFile);
 
-/// What is wrong with a scene.
+/// The fault of a scene.
 #[derive(Clone, Debug)]
 pub enum Finding {
-    /// The picture in floating point is not what the oracle says.
+    /// The picture in floating point differs from the oracle's.
     Float(Box<Verdict>),
-    /// The picture of bytes is not what the oracle says.
+    /// The picture of bytes differs from the oracle's.
     Bytes(Box<Verdict>),
     /// The scene was read, and then not drawn.
     Refused(String),
@@ -51,14 +51,14 @@ pub enum Finding {
     Panicked(String),
 }
 
-/// How the pictures of a right scene did.
+/// The figures of a right scene's pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
     /// In floating point.
     pub float: Verdict,
     /// In bytes.
     pub bytes: Verdict,
-    /// The most that was left out of the picture of bytes, in linear intensity.
+    /// The largest error allowed by tolerances in the picture of bytes, in linear intensity.
     pub left_out: f64,
 }
 
@@ -82,10 +82,10 @@ impl fmt::Display for Finding {
 }
 
 impl Judge {
-    /// Judges what `adapter` draws. Paths of scenes are relative to `base_dir`.
+    /// Judges the pictures of `adapter`. Paths of scenes are relative to `base_dir`.
     ///
     /// # Errors
-    /// The adapter fails to draw what tells its grid.
+    /// The adapter cannot draw the picture that measures its grid.
     pub fn new(adapter: Adapter, base_dir: impl Into<PathBuf>) -> Result<Self, RenderError> {
         let grid = adapter.sub_pixel_bits()?;
         Ok(Self { adapter, base_dir: base_dir.into(), grid, four: false, steps: None, fault: None, until_wrong: false })
@@ -98,8 +98,8 @@ impl Judge {
         Self { four, ..self }
     }
 
-    /// Has everything drawn within so many steps, and judged by that. Spheres, planes and teapots are made finer, so
-    /// that they have patches.
+    /// Draws everything within so many steps, and judges it by that. Spheres, planes and teapots are refined, so that
+    /// they have patches.
     #[must_use]
     pub fn within(self, steps: f32) -> Self {
         Self { steps: Some(steps), ..self }
@@ -111,7 +111,7 @@ impl Judge {
         Self { fault: Some(fault), ..self }
     }
 
-    /// Finds only whether a scene is wrong, much sooner where it is; what is then said of it is of some pixels.
+    /// Finds only whether a scene is wrong, much sooner if it is; the figures then cover only some pixels.
     #[must_use]
     pub fn until_wrong(self) -> Self {
         Self { until_wrong: true, ..self }
@@ -120,7 +120,7 @@ impl Judge {
     /// Reads the scene, draws it and judges its pictures.
     ///
     /// # Errors
-    /// What is wrong, the picture in floating point first.
+    /// The fault, of the picture in floating point first.
     pub fn judge(&self, scene: &Value) -> Result<Figures, Finding> {
         let scene = SceneFile::from_json(&scene.to_string(), "scene");
         let mut scene = scene.map_err(|error| Finding::NoScene(error.to_string()))?;
@@ -134,7 +134,7 @@ impl Judge {
         })
     }
 
-    /// The scene in small, if it fails: one that fails in the same way, found with at most `trials` pictures.
+    /// A smaller scene that fails in the same way, found with at most `trials` pictures.
     pub fn shrunk(&self, scene: &Value, finding: &Finding, trials: usize) -> Value {
         let hasty = Self { until_wrong: true, adapter: self.adapter.clone(), base_dir: self.base_dir.clone(), ..*self };
         shrink(scene, trials, |smaller| hasty.judge(smaller).is_err_and(|other| other.is_like(finding)))
@@ -174,7 +174,7 @@ impl Judge {
     }
 }
 
-/// Makes meshes so fine that there is something to choose, patch by patch.
+/// Refines meshes so that they have several patches.
 fn refine(scene: &mut SceneFile) {
     for object in &mut scene.objects {
         match &mut object.mesh {
@@ -196,16 +196,16 @@ struct Pictures {
     encoding: Encoding,
 }
 
-/// What the pictures have to keep to.
+/// The tolerances of the pictures.
 #[derive(Clone, Copy)]
 struct Limits {
     /// The bits of the adapter's grid within a pixel.
     grid: u32,
-    /// How many objects are.
+    /// The number of blended objects.
     blended: f64,
-    /// What they may be off besides.
+    /// The further error that is allowed, in steps.
     steps: f64,
-    /// Only whether they do is asked.
+    /// Whether only wrong or right is asked.
     until_wrong: bool,
 }
 

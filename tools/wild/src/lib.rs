@@ -1,9 +1,9 @@
-//! Random scenes, each drawn by an adapter and judged by the oracle, and failures made small.
+//! Random scenes, each drawn by an adapter and judged by the oracle, and failures reduced to small ones.
 //!
-//! [`scene`] draws a scene file by numbers: the same one for the same numbers on every machine. [`Judge`] draws it with
-//! an adapter and judges it as `halfway verify` does; [`shrink()`] makes what fails small. `cargo xtask wild` does all
-//! three.
-//! Environments, and normals on objects, are a few small [`IMAGES`], which have to lie in the judge's folder.
+//! [`scene`] generates a scene file from numbers: the same one for the same numbers on every machine. [`Judge`] draws
+//! it with an adapter and judges it as `halfway verify` does; [`shrink()`] reduces failures. `cargo xtask wild` does
+//! all three. Environments, and normal maps on objects, are a few small [`IMAGES`], which must lie in the judge's
+//! folder.
 
 mod judge;
 mod random;

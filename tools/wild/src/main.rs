@@ -1,4 +1,4 @@
-//! `halfway-wild`: random scenes, drawn, judged and, where they fail, made small.
+//! `halfway-wild`: random scenes, drawn, judged and, where they fail, reduced.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -12,7 +12,7 @@ use halfway::render::AdapterChoice;
 use halfway_wild::{IMAGES, Judge, scene, written};
 use serde_json::Value;
 
-/// Draws random scenes with the adapter and judges each by the oracle; makes what fails small and prints it.
+/// Draws random scenes with the adapter and judges each by the oracle; reduces failures and prints them.
 ///
 /// The same seed means the same scenes on every machine. A failure is written as a scene file, which `halfway verify`
 /// takes.
@@ -21,17 +21,17 @@ use serde_json::Value;
 #[command(after_help = "Exit codes: 0 done; 1 a file could not be written; 2 the command line cannot be used; 3 the \
     adapter that is asked for is not there; 4 a scene failed.")]
 struct Arguments {
-    /// Which scenes
+    /// The seed of the scenes
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// How many
+    /// The number of scenes
     #[arg(long, value_name = "N", default_value_t = 100)]
     scenes: u64,
     /// The number of the first one
     #[arg(long, value_name = "N", default_value_t = 0)]
     first: u64,
-    /// What draws: cpu, or a graphics adapter by a part of its name or its backend's, as `halfway adapters` lists them,
-    /// or both, such as gl:llvmpipe
+    /// The renderer: cpu, or a graphics adapter by a part of its name or its backend's, as `halfway adapters` lists
+    /// them, or both, such as gl:llvmpipe
     #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
     adapter: Option<String>,
     /// Draw scenes with four samples a pixel as they are, not with one
@@ -40,7 +40,7 @@ struct Arguments {
     /// Draw everything within so many steps of 255, and judge it by that
     #[arg(long, value_name = "STEPS", value_parser = steps)]
     steps: Option<f32>,
-    /// Judge a failure at most so often to make it small
+    /// The most pictures to judge while reducing a failure
     #[arg(long, value_name = "N", default_value_t = 500)]
     trials: usize,
     /// The folder for the scenes that failed
@@ -106,7 +106,7 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     Ok(failed)
 }
 
-/// Puts the images that scenes name beside where those will lie.
+/// Writes the images that scenes name beside them.
 fn write_images(folder: &Path) -> Result<(), String> {
     for (path, bytes) in IMAGES {
         let path = folder.join(path);
@@ -119,7 +119,7 @@ fn write_images(folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Prints a small scene and writes it.
+/// Prints a reduced scene and writes it.
 fn tell(arguments: &Arguments, number: u64, judge: &Judge, small: &Value) -> Result<(), (u8, String)> {
     let text = written(small);
     let file = file(&arguments.output, arguments.seed, number);

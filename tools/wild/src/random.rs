@@ -3,22 +3,22 @@
 use fastrand::Rng;
 
 /// The numbers of one scene of a seed.
-pub(crate) fn of_scene(seed: u64, scene: u64) -> Rng {
-    // The scene's number changes what the seed has led to, so that no scene repeats numbers of its neighbours.
+pub(crate) fn for_scene(seed: u64, scene: u64) -> Rng {
+    // The scene's number changes the seeded state, so that no scene repeats numbers of its neighbours.
     Rng::with_seed(Rng::with_seed(seed).u64(..) ^ scene)
 }
 
-/// What scenes are made of.
+/// The random values of scenes.
 pub(crate) trait RngExt {
     /// In [low, high).
     fn between(&mut self, low: f64, high: f64) -> f64;
     /// True in `percent` of a hundred cases.
     fn percent(&mut self, percent: u64) -> bool;
     /// One of these.
-    fn of<T: Copy>(&mut self, choices: &[T]) -> T;
+    fn choose<T: Copy>(&mut self, choices: &[T]) -> T;
     /// From 2^`low` to 2^(`high` + 1), each power about as often as the next.
     fn magnitude(&mut self, low: i32, high: i32) -> f64;
-    /// A direction of length 1, none preferred.
+    /// A direction of length 1, uniformly distributed.
     fn direction(&mut self) -> [f64; 3];
 }
 
@@ -31,7 +31,7 @@ impl RngExt for Rng {
         self.u64(..100) < percent
     }
 
-    fn of<T: Copy>(&mut self, choices: &[T]) -> T {
+    fn choose<T: Copy>(&mut self, choices: &[T]) -> T {
         // Not by `choice`: that draws a `usize`, which is another number on machines of 32 bits.
         choices[self.u64(..choices.len() as u64) as usize]
     }
@@ -60,7 +60,7 @@ mod tests {
 
     #[test]
     fn numbers_keep_to_their_ranges() {
-        let mut random = of_scene(1, 2);
+        let mut random = for_scene(1, 2);
         for _ in 0..1000 {
             assert!((-2.0..3.0).contains(&random.between(-2.0, 3.0)));
             assert!((0.25..16.0).contains(&random.magnitude(-2, 3)));

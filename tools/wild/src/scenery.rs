@@ -1,4 +1,4 @@
-//! Draws scenes over the whole format of scene files, models excepted; of images on objects there are normals.
+//! Generates scenes over the whole format of scene files, except models; of images on objects only normal maps.
 //!
 //! Most values are ordinary, so that most scenes show something; each may be extreme, and any key may be left out.
 
@@ -13,13 +13,13 @@ mod surroundings;
 use fastrand::Rng;
 use serde_json::{Map, Value, json};
 
-use crate::random::{RngExt, of_scene};
+use crate::random::{RngExt, for_scene};
 
 pub use files::IMAGES;
 
 /// Scene number `number` of a seed, as the JSON of a scene file: the same one on every machine.
 pub fn scene(seed: u64, number: u64) -> Value {
-    let random = &mut of_scene(seed, number);
+    let random = &mut for_scene(seed, number);
     let unit = place::unit(random);
     let objects = objects(random, unit);
     let lights = light::lights(random, unit, objects.len());
@@ -29,10 +29,10 @@ pub fn scene(seed: u64, number: u64) -> Value {
     scene.set("lights", lights);
     scene.set("objects", objects.into());
     scene.perhaps(random, 50, "background", |random| looks::color(random, 0.3));
-    scene.perhaps(random, 50, "output", |random| random.of(&["srgb", "raw"]).into());
+    scene.perhaps(random, 50, "output", |random| random.choose(&["srgb", "raw"]).into());
     scene.perhaps(random, 15, "samples", |_| json!(4));
     scene.perhaps(random, 60, "ambient", |random| looks::color(random, 0.4));
-    scene.perhaps(random, 30, "viewer", |random| random.of(&["local", "infinite"]).into());
+    scene.perhaps(random, 30, "viewer", |random| random.choose(&["local", "infinite"]).into());
     scene.perhaps(random, 80, "shading", looks::shading);
     scene.perhaps(random, 70, "reflectance", looks::reflectance);
     scene.perhaps(random, 35, "intensity", looks::intensity);
@@ -48,8 +48,8 @@ pub fn scene(seed: u64, number: u64) -> Value {
     scene.into()
 }
 
-/// Puts images of normals on some objects, most of which are then lit at the pixels. One on top of another has the
-/// same or none, as of solids.
+/// Puts normal maps on some objects, most of which are then lit at the pixels. An object at the position of another has
+/// the same map or none; likewise for solids.
 fn turn_normals(random: &mut Rng, objects: &mut [Value]) {
     for at in 0..objects.len() {
         if is_twin(objects, at) {
@@ -98,7 +98,7 @@ fn objects(random: &mut Rng, unit: f64) -> Vec<Value> {
     };
     let mut objects: Vec<Value> = Vec::new();
     for i in 0..count {
-        // One on top of another, or the same shape elsewhere.
+        // At the position of the one before, or the same shape elsewhere.
         let mut object = match objects.last() {
             Some(last) if random.percent(4) => last.clone(),
             Some(last) if random.percent(10) => {
@@ -117,19 +117,19 @@ fn object(random: &mut Rng, unit: f64) -> Value {
     object.set("mesh", mesh::mesh(random, unit));
     object.perhaps(random, 90, "transform", |random| place::transform(random, unit));
     object.perhaps(random, 20, "normals", |random| {
-        random.of(&["keep", "face", "uniform", "area", "angle", "max"]).into()
+        random.choose(&["keep", "face", "uniform", "area", "angle", "max"]).into()
     });
     object.perhaps(random, 85, "material", looks::material);
     object.perhaps(random, 15, "back_material", looks::material);
-    object.perhaps(random, 60, "faces", |random| random.of(&["front", "back", "both", "both"]).into());
+    object.perhaps(random, 60, "faces", |random| random.choose(&["front", "back", "both", "both"]).into());
     object.perhaps(random, 25, "shading", looks::shading);
     object.perhaps(random, 25, "reflectance", looks::reflectance);
-    object.perhaps(random, 10, "vertex_colors", |random| random.of(&["multiply", "ignore"]).into());
+    object.perhaps(random, 10, "vertex_colors", |random| random.choose(&["multiply", "ignore"]).into());
     object.perhaps(random, 22, "blend", |_| json!(true));
     object.into()
 }
 
-/// A JSON object in the making.
+/// A JSON object under construction.
 struct Object(Map<String, Value>);
 
 impl Object {

@@ -1,4 +1,4 @@
-//! Makes a scene that fails small: delta debugging on its JSON.
+//! Reduces a scene that fails: delta debugging on its JSON.
 //!
 //! A step takes something away, or writes a number shorter, and stands if the scene still fails. Steps are taken in
 //! turn until none stands: parts of lists, then keys (the format's defaults hold), then the triangles of written-out
@@ -101,7 +101,7 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
     /// them the format puts in its own, which are no simpler.
     fn remove_keys(&mut self) {
         let mut paths = paths(&self.best, &Value::is_object);
-        // What is outside first: with it goes what is inside.
+        // Outer keys first: they take the inner ones along.
         paths.sort_by_key(|path| path.matches('/').count());
         for path in paths {
             let Some(Value::Object(keys)) = self.best.pointer(&path) else { continue };
@@ -152,7 +152,7 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
     }
 }
 
-/// Numbers that a reader takes in more easily than `x`, the easiest first.
+/// Numbers that are easier to read than `x`, the easiest first.
 fn simpler(x: f64) -> Vec<f64> {
     let mut found = vec![0.0, 1.0, -1.0];
     for digits in 1..4 {
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn what_matters_stays_and_all_else_goes() {
+    fn reduction_keeps_only_relevant_parts() {
         let mut objects = vec![json!({"mesh": {"teapot": {"divisions": 5}}, "size": 3.25}); 20];
         objects[7]["color"] = json!([0.734_521, 0.25, 0.125]);
         objects[13]["name"] = json!("b");
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fails_is_asked_no_more_often_than_allowed() {
+    fn failures_are_tested_at_most_as_often_as_allowed() {
         let scene = json!({"objects": vec![json!({"a": 1.5}); 100]});
         let mut asked = 0;
         let small = shrink(&scene, 17, |_| {

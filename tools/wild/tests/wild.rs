@@ -13,7 +13,7 @@ use serde_json::Value;
 /// in `known/swiftshader` and `known/opengl` by those; those in `four` failed on the CPU with four samples a pixel.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/wild");
 
-/// What the environment names, else a graphics adapter.
+/// The adapter of the environment variables, else a graphics adapter.
 fn choice() -> AdapterChoice {
     if std::env::var_os("HALFWAY_ADAPTER").is_some() { AdapterChoice::default() } else { AdapterChoice::gpu() }
 }
@@ -27,23 +27,23 @@ fn judge_of(choice: &AdapterChoice) -> Judge {
     judge.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Whether what is chosen is the CPU without a driver.
+/// Whether the choice is the CPU without a driver.
 fn is_on_the_cpu() -> bool {
     matches!(choice().open(), Ok(Adapter::Cpu(_)))
 }
 
-/// What is chosen, if that is a driver, and the CPU.
+/// The chosen driver, if it is one, and the CPU.
 fn judges() -> Vec<(&'static str, Judge)> {
     let by_a_driver = (!is_on_the_cpu()).then(|| ("by a driver", judge()));
     by_a_driver.into_iter().chain([("on the CPU", judge_of(&AdapterChoice::cpu()))]).collect()
 }
 
-/// What the environment says is drawn with, where each adapter is tried.
+/// The adapter under test by the environment, where each adapter is tried.
 fn tried() -> Option<String> {
     std::env::var("HALFWAY_TESTED_ADAPTER").ok()
 }
 
-/// The folder of what fails by the driver.
+/// The folder of known failures of the driver.
 fn known() -> &'static str {
     match tried() {
         Some(tried) if tried.contains("SwiftShader") => "known/swiftshader",
@@ -99,7 +99,7 @@ fn light_lists_keep_to_their_steps() {
     }
 }
 
-/// The same scene with a dozen weak lights around what it has: more than a shader takes without lists.
+/// The scene with a dozen weak lights more: more than a shader takes without lists.
 fn with_many_lights(mut scene: Value) -> Value {
     let mut lights = scene["lights"].as_array().cloned().unwrap_or_default();
     for number in 0..12_u8 {
@@ -124,7 +124,7 @@ const SEED: u64 = 1;
 
 #[test]
 fn scenes_that_failed_once_are_right() {
-    // The CPU is tried beside the first of the drivers. What one driver fails has its name among what is known of it.
+    // The CPU is tried beside the first of the drivers. Failures of one driver have its name among the known ones.
     let count = if tried().is_some() { 1 } else { 2 };
     let known = Path::new(KEPT).join(known());
     for (by, judge) in judges().into_iter().take(count) {
@@ -151,7 +151,7 @@ fn scenes_that_failed_once_with_four_samples_are_right() {
     }
 }
 
-/// What is mended moves up, to the scenes that are right. What hardware fails is not known.
+/// Failures that are fixed move up, to the scenes that are right. Failures of hardware are not known.
 #[test]
 fn known_failures_fail() {
     let on_the_cpu = tried().is_none().then(|| ("known/cpu", judge_of(&AdapterChoice::cpu())));

@@ -1,4 +1,4 @@
-//! Running cargo, and saying so.
+//! Runs cargo, and prints the commands.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -20,21 +20,21 @@ pub(crate) fn cargo<A: AsRef<OsStr>>(arguments: impl IntoIterator<Item = A>) -> 
     command
 }
 
-/// The command as one would type it.
+/// The command as typed in a shell.
 pub(crate) fn written(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_stem().unwrap_or_default();
     let words = std::iter::once(program).chain(command.get_args());
     let words: Vec<_> = words.map(|word| word.to_string_lossy()).collect();
-    // Only a NUL, which no argument can hold, is beyond quoting.
+    // Only a NUL, which no argument can hold, cannot be quoted.
     shlex::try_join(words.iter().map(AsRef::as_ref)).unwrap_or_else(|_| words.join(" "))
 }
 
-/// Prints what is about to happen, and the command.
+/// Prints the step that begins, and the command.
 pub(crate) fn announce(title: &str, command: &Command) {
     eprintln!("\n── {title}\n   {}", written(command));
 }
 
-/// Runs a command under a header; its output goes where this program's goes.
+/// Runs a command under a header; its output goes to this program's.
 ///
 /// # Errors
 /// The command cannot be started, or ends with another exit code than 0.
@@ -49,7 +49,7 @@ pub(crate) fn step(title: &str, command: &mut Command) -> Result {
     Ok(())
 }
 
-/// Runs a command under no header and gives its output; its errors are shown where it fails.
+/// Runs a command without a header and returns its output; its errors are printed if it fails.
 ///
 /// # Errors
 /// The command cannot be started, or ends with another exit code than 0.

@@ -1,4 +1,4 @@
-//! The commands that a page of documentation shows.
+//! The commands in a page of documentation.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ pub(crate) struct PageCommand {
 ///
 /// # Errors
 /// The page cannot be read, or has a command that is more than a program and its arguments.
-pub(crate) fn of_page(root: &Path, page: &str) -> crate::failure::Result<Vec<PageCommand>> {
+pub(crate) fn from_page(root: &Path, page: &str) -> crate::failure::Result<Vec<PageCommand>> {
     let text = std::fs::read_to_string(root.join(page)).map_err(|error| Failure::new(format!("{page}: {error}")))?;
     shown(&text).map_err(|problem| Failure::new(format!("{page}, {problem}")))
 }
@@ -58,8 +58,8 @@ pub(crate) fn shown(page: &str) -> Result<Vec<PageCommand>, String> {
     }
 }
 
-/// Cuts a command into words as a shell does, quotes and comments included. What a shell would do more (variables,
-/// pipes, several commands) is refused, quoted or not, because no shell is used here.
+/// Cuts a command into words as a shell does, quotes and comments included. Further features of shells (variables,
+/// pipes, several commands) are refused, quoted or not, because no shell is used here.
 fn words(command: &str) -> Result<Vec<String>, String> {
     let words = shlex::split(command).ok_or("a quote has no end")?;
     match words.iter().flat_map(|word| word.chars()).find(|&c| "$`\\|&;<>*?()".contains(c)) {
@@ -114,7 +114,7 @@ cargo output
     }
 
     #[test]
-    fn what_needs_a_shell_is_refused_with_its_line() {
+    fn shell_features_are_refused_with_their_line() {
         let rows = [
             ("cargo run | tee log", "line 3: expected a program and its arguments, found the shell's |"),
             ("cargo run > log", "the shell's >"),

@@ -1,4 +1,4 @@
-//! Whether there is a display that a window can be opened on.
+//! The display on which a window can be opened.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -13,8 +13,8 @@ pub(crate) enum Display {
 }
 
 impl Display {
-    /// The display that a window would open on, if one is named and answers. Where both kinds are, it is the Wayland
-    /// one, as for windows.
+    /// The display on which a window would open, if one is named and answers. Of both kinds, the Wayland display has
+    /// priority, as for windows.
     pub(crate) fn here() -> Option<Self> {
         if cfg!(any(windows, target_os = "macos")) {
             return Some(Self::System);
@@ -23,7 +23,7 @@ impl Display {
     }
 }
 
-/// Where a display listens.
+/// The address of a display.
 #[derive(Debug, PartialEq, Eq)]
 enum Address {
     /// A socket of the machine.

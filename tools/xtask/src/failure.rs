@@ -1,4 +1,4 @@
-//! Why a chore was not done.
+//! Failures of chores.
 
 use std::fmt;
 use std::process::ExitCode;
@@ -10,16 +10,16 @@ pub(crate) struct Failure {
     code: u8,
 }
 
-/// What a chore ends with.
+/// The result of a chore.
 pub(crate) type Result<T = ()> = std::result::Result<T, Failure>;
 
 impl Failure {
-    /// Something that was tried went wrong: exit code 1.
+    /// A step failed: exit code 1.
     pub(crate) fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), code: 1 }
     }
 
-    /// What was asked for makes no sense: exit code 2.
+    /// The request was invalid: exit code 2.
     pub(crate) fn usage(message: impl Into<String>) -> Self {
         Self { message: message.into(), code: 2 }
     }

@@ -42,7 +42,7 @@ enum Chore {
     /// Without a graphics card the CPU draws.
     #[command(verbatim_doc_comment)]
     Soak(chores::program::Arguments),
-    /// Draw random scenes, judge each by the reference renderer, and make those that fail small
+    /// Draw random scenes, judge each by the reference renderer, and reduce failures
     ///
     /// A failure is printed and written to out/wild/ as a scene file. The same seed means the same scenes on every
     /// machine. Options are those of the program, such as --seed N, --scenes N and --adapter NAME:

@@ -1,4 +1,4 @@
-//! Set-up: what a chore needs of the machine, and getting it.
+//! Set-up: a chore's requirements of the machine, and their installation.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -89,7 +89,7 @@ pub(crate) const BROWSER: Need =
 pub(crate) const ARM_LINKER: Need =
     program("a linker for 64-bit ARM", &["aarch64-linux-gnu-gcc"], &["gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross"]);
 
-/// What runs programs for 64-bit ARM on other processors.
+/// The emulator of 64-bit ARM processors on others.
 pub(crate) const ARM_EMULATOR: Need =
     program("QEMU, which runs programs for ARM", &["qemu-aarch64-static"], &["qemu-user-static"]);
 
@@ -102,7 +102,7 @@ pub(crate) const WINDOW_MANAGER: Need = program("the window manager openbox", &[
 /// A Wayland display in a window of the virtual screen, for the tests of the window.
 pub(crate) const COMPOSITOR: Need = program("the Wayland compositor weston", &["weston"], &["weston"]);
 
-/// What windows on an X display load when they open.
+/// The libraries that windows on an X display load.
 pub(crate) const X11_WINDOWS: Need = Need {
     name: "the libraries of windows on X",
     libraries: &[
@@ -118,7 +118,7 @@ pub(crate) const X11_WINDOWS: Need = Need {
     ..NOTHING
 };
 
-/// What windows on a Wayland display load when they open.
+/// The libraries that windows on a Wayland display load.
 pub(crate) const WAYLAND_WINDOWS: Need = Need {
     name: "the libraries of windows on Wayland",
     libraries: &["libwayland-client.so.0", "libxkbcommon.so.0"],
@@ -136,10 +136,10 @@ impl Need {
 }
 
 impl Setup {
-    /// Sees that `needs` are met, and installs what is missing where it may, by apt-get.
+    /// Checks that `needs` are met, and installs missing ones by apt-get where it may.
     ///
     /// # Errors
-    /// What is missing, why it was not installed, and the packages that would bring it.
+    /// The message lists the missing requirements, why they were not installed, and their packages.
     pub(crate) fn meet(self, needs: &[Need]) -> Result {
         let missing = missing(needs);
         if missing.is_empty() || !cfg!(target_os = "linux") {
@@ -152,7 +152,7 @@ impl Setup {
             return Err(refusal(&missing, "only apt-get is run from here"));
         }
         eprintln!("missing:\n{}\nInstalling them by apt-get.", listed(&missing));
-        // A list that is out of date, or a repository that does not answer, need not keep the packages from coming.
+        // An outdated list, or a repository that does not answer, need not prevent the installation.
         if let Err(failure) = step("what packages there are", &mut apt(&["update"])) {
             eprintln!("warning: {failure}");
         }
@@ -175,7 +175,7 @@ fn packages(needs: &[Need]) -> Vec<&'static str> {
     needs.iter().flat_map(|need| need.packages).copied().collect()
 }
 
-/// The message where nothing is installed.
+/// The message if nothing is installed.
 fn refusal(missing: &[Need], why: &str) -> Failure {
     let packages = packages(missing).join(" ");
     Failure::new(format!(
@@ -233,7 +233,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn what_is_missing_is_not_installed_unasked() {
+    fn missing_needs_are_not_installed_unasked() {
         let met = program("a shell", &["no-program-has-this-name", "sh"], &[]);
         let no_install = Setup { no_install: true };
         assert_eq!(no_install.meet(&[met]), Ok(()));

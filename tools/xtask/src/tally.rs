@@ -1,4 +1,4 @@
-//! What came out of the tests.
+//! The results of tests.
 
 use std::fmt;
 use std::io::{BufRead, BufReader};

@@ -4,7 +4,7 @@ use super::prelude::*;
 
 /// Toward the light, for the bands.
 const FRONT: Vec3 = Vec3::new(0.3, 0.2, 1.0);
-/// The same for the terminator: from the right and a little from the viewer's side, so that it lies on no meridian.
+/// From the right and a little from the viewer's side, for the terminator, so that it lies on no meridian.
 const SIDE: Vec3 = Vec3::new(1.0, 0.0, 0.2);
 /// Between the equator and the next parallel, where cells are widest.
 const ROW: u32 = SIZE.y / 2 - 12;
@@ -63,7 +63,7 @@ pub(super) fn terminator() -> Result<FailurePage, ChartError> {
 mod tests {
     use super::*;
 
-    /// The largest change of slope from pixel to pixel over the middle half of the row: what an eye sees as a band.
+    /// The largest change of slope from pixel to pixel over the middle half of the row, which the eye sees as a band.
     fn kink(image: &Image) -> f64 {
         let row = row(image, ROW);
         let middle = &row[row.len() / 4..row.len() * 3 / 4];
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn gouraud_lights_what_is_in_the_dark() {
         let [_, gouraud, phong, truth] = &pictures(SIDE).unwrap();
-        // The most light where the true sphere is black, and a few pixels from its edge.
+        // The most light where the true sphere is black, at least a few pixels from its edge.
         let dark = |image: &Image| {
             let pairs = row(image, ROW).into_iter().zip(row(truth, ROW));
             pairs.filter(|(_, (_, truth))| *truth == 0.0).map(|((_, value), _)| value).fold(0.0, f64::max)

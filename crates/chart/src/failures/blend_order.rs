@@ -6,14 +6,14 @@ use super::prelude::*;
 const COLORS: [LinearRgba; 2] = [LinearRgba::rgb(1.0, 0.25, 0.0), LinearRgba::rgb(0.0, 0.25, 1.0)];
 const OPACITIES: [f32; 9] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
 
-/// How two squares that pass through each other are given to be drawn.
+/// The order in which two squares that intersect are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Squares {
     /// Whole: neither is behind the other.
     Crossing,
-    /// The same, the second one spawned first.
+    /// Whole, the second one spawned first.
     Swapped,
-    /// Cut where they cross: of the four halves each is behind or before the others.
+    /// Cut along their intersection: each of the four halves is behind or in front of the others.
     Cut,
 }
 
@@ -37,8 +37,8 @@ fn picture(squares: Squares, opacity: f32) -> Result<Image, ChartError> {
     })
 }
 
-/// Draws two blended squares that cross object by object, and compares them with the same squares cut where they cross:
-/// the share of pixels that are wrong, among those that show both, and by how much at most, linear.
+/// Draws two intersecting blended squares object by object, and compares them with the same squares cut along their
+/// intersection: the fraction of wrong pixels, among those that show both, and the largest error, linear.
 fn wrong_order(opacity: f32) -> Result<(f64, f64), ChartError> {
     let [first, second, truth] =
         [Squares::Crossing, Squares::Swapped, Squares::Cut].map(|squares| picture(squares, opacity));
@@ -47,7 +47,7 @@ fn wrong_order(opacity: f32) -> Result<(f64, f64), ChartError> {
         let pixels = a.pixels().iter().zip(b.pixels());
         pixels.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 1e-9)).count()
     };
-    // Where both are seen, either order shows something else.
+    // Where both are visible, the two orders differ.
     let share = differ(&first, &truth) as f64 / differ(&first, &second).max(1) as f64;
     Ok((share, compared(&first, &truth)?.linear.all.max()))
 }

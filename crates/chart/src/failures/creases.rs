@@ -9,7 +9,7 @@ fn can(policy: Option<Normals>) -> Mesh {
     let can = Cylinder { radius: 0.8, height: 1.2, capped: true };
     let mesh = sound(can.mesh(Tessellation::Count { rows: 3, columns: 24 }));
     let Some(policy) = policy else { return mesh };
-    // As from a file that knows positions only.
+    // As from a file with positions only.
     let (welded, _) = sound(mesh.welded(Weld::positions(1e-5)));
     welded.with_normals(policy).0
 }
@@ -68,7 +68,7 @@ mod tests {
         let [mean, creased, own] = pictures().unwrap();
         let [mean, creased] =
             [mean, creased].map(|image| metrics::compare(&image, &own, Encoding::Srgb).unwrap().linear.all.rmse);
-        // Mean normals are wrong over all of the lid; creased ones by what means over facets differ from true normals.
+        // Mean normals are wrong all over the lid; creased ones by the difference of means over facets from true ones.
         assert!(mean > 0.05 && creased < 0.1 * mean, "{mean}, {creased}");
     }
 }

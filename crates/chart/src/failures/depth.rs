@@ -1,8 +1,8 @@
-//! How near two surfaces may be for the depth buffer to part them.
+//! The least gap between two surfaces that the depth buffer resolves.
 
 use super::prelude::*;
 
-/// Gaps are powers of two as parts of the distance; the last leaves both at one place in f32.
+/// Gaps are powers of two relative to the distance; the last leaves both at one position in f32.
 const LEAST_POWER: i32 = 4;
 const GAPS: u32 = 21;
 /// Pixels of a gap's column.
@@ -10,8 +10,8 @@ const COLUMN: u32 = 4;
 /// Distances of the nearer surface over that of the near plane: powers of two, which f32 holds exactly.
 const DISTANCES: [i32; 9] = [1, 3, 5, 7, 9, 11, 13, 15, 17];
 
-/// Column i shows a surface at `distance` before another that is farther by 2⁻⁽ⁱ⁺⁴⁾ of it, which was spawned first and
-/// so wins where depths are equal.
+/// Column i shows a surface at `distance` in front of another that is farther by 2⁻⁽ⁱ⁺⁴⁾ of it, which was spawned first
+/// and so wins where depths are equal.
 fn spawn(world: &mut World, distance: f32) {
     let half = GAPS as f32;
     // From −half to half across, −1 to 1 upward at distance 1: a column is two units wide.
@@ -34,8 +34,8 @@ fn spawn(world: &mut World, distance: f32) {
     show(world, mesh(vec![quad([-half - 1.0, half + 1.0], distance)]), green, Shading::Flat);
 }
 
-/// The least gap, as a part of the distance, from which on the nearer of two surfaces hides the other, for each of
-/// these distances; the near plane is at distance 1, the other end at infinity. `None` where not even 1/16 is enough.
+/// The least gap, relative to the distance, from which on the nearer of two surfaces hides the other, for each of these
+/// distances; the near plane is at distance 1, the far plane at infinity. `None` where not even 1/16 is enough.
 fn parted(adapter: &Adapter, distances: &[f64]) -> Result<Vec<(f64, Option<f64>)>, ChartError> {
     let mut judged = JudgedApp::new(adapter, UVec2::new(COLUMN * GAPS, COLUMN), Pixels::Byte);
     let gap = |&distance: &f64| {
@@ -45,7 +45,7 @@ fn parted(adapter: &Adapter, distances: &[f64]) -> Result<Vec<(f64, Option<f64>)
     distances.iter().map(gap).collect()
 }
 
-/// What a picture tells of that.
+/// The least resolved gap in a picture.
 fn least_parted(picture: &Image) -> Option<f64> {
     let hides = |i: &u32| {
         // Without the columns' edges.
@@ -55,24 +55,24 @@ fn least_parted(picture: &Image) -> Option<f64> {
     (0..GAPS).take_while(hides).last().map(|i| 2f64.powi(-(i as i32) - LEAST_POWER))
 }
 
-/// The stored depth of a distance, as whole numbers that count up: 0 at the near plane and 1 at infinity, in 24 bits of
-/// fixed point.
+/// The stored depth of a distance, as increasing integers: 0 at the near plane and 1 at infinity, in 24 bits of fixed
+/// point.
 fn standard(distance: f64) -> i64 {
     ((1.0 - distance.recip()) * f64::from((1 << 24) - 1)).round() as i64
 }
 
-/// The same of 1 at the near plane and 0 at infinity, in 32-bit floating point: as this project stores it.
+/// The stored depth from 1 at the near plane to 0 at infinity, in 32-bit floating point: as this project stores it.
 fn reversed(distance: f64) -> i64 {
     -i64::from((distance.recip() as f32).to_bits())
 }
 
-/// The least power of two that parts two surfaces at a distance, as a part of it, by arithmetic alone.
+/// The least power of two, relative to the distance, that separates two surfaces there, by arithmetic alone.
 fn gap(stored: fn(f64) -> i64, distance: f64) -> f64 {
     let parts = |power: &i32| stored(distance * (1.0 + 2f64.powi(-power))) > stored(distance);
     (0..40).take_while(parts).last().map_or(1.0, |power| 2f64.powi(-power))
 }
 
-/// A picture of two surfaces that pass through each other far away, where the first hides the second as `hides` says.
+/// A picture of two surfaces that intersect far away, where the first hides the second as `hides` says.
 fn crossing(hides: impl Fn(f64, f64) -> bool) -> Image {
     let pixel = |i: u32| {
         let [x, y] = [i % SIZE.x, i / SIZE.x].map(|at| (f64::from(at) + 0.5) / f64::from(SIZE.x) - 0.5);

@@ -1,25 +1,25 @@
-//! Lights and viewers that are very near and very far, in 32 bits.
+//! Very near and very distant lights and viewers, in 32 bits.
 
 use super::prelude::*;
 
-/// What is moved away from a square of edge 6.
+/// The thing that is moved away from a square of edge 6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Distant {
-    /// A lamp, above the middle of what is seen; the viewer is 3 units away.
+    /// A lamp, above the middle of the picture; the viewer is 3 units away.
     Light,
-    /// The viewer, who sees as much; a lamp is 1.234 units above.
+    /// The viewer, whose view stays as wide; a lamp is 1.234 units above.
     Viewer,
 }
 
 /// Powers of ten.
 const POWERS: std::ops::RangeInclusive<i32> = -3..=7;
-/// What distances are multiplied by, of which the worst is told: how much rounding takes is a matter of chance.
+/// Factors of the distances, of which the worst counts: the loss by rounding varies at random.
 const NEAR_BY: [f64; 6] = [0.83, 0.91, 0.97, 1.07, 1.13, 1.21];
-/// Where the square is: no whole number, which f32 would hold exactly.
+/// The height of the square: not a whole number, which f32 would hold exactly.
 const HEIGHT: f32 = 0.37;
-/// How far above it the lamp is, where the viewer is moved; no whole number, or both would be rounded alike.
+/// The height of the lamp above it when the viewer moves; not a whole number, or both would be rounded alike.
 const LAMP: f32 = 1.234;
-/// What is judged; full light is 1.
+/// The least intensity that is judged; full light is 1.
 const LEAST: f64 = 0.05;
 const SMALL: UVec2 = UVec2::splat(48);
 
@@ -29,7 +29,7 @@ fn distances() -> Vec<f64> {
 
 fn spawn(world: &mut World, distant: Distant, distance: f32) {
     let [viewer, half, shift, light] = match distant {
-        // What a near lamp lights fills the picture.
+        // The light of a near lamp fills the picture.
         Distant::Light => [3.0, (2.0 * distance).min(1.0), distance.min(1.0), distance],
         Distant::Viewer => [distance, distance.min(1.0), 1.0, LAMP],
     };
@@ -42,12 +42,12 @@ fn spawn(world: &mut World, distant: Distant, distance: f32) {
     }
 }
 
-/// The largest error of this adapter as a part of the oracle's intensity at six distances about each power of ten, from
+/// The largest error of this adapter relative to the oracle's intensity at six distances about each power of ten, from
 /// 10⁻³ to 10⁷ units; 10⁻⁹ where there is none.
 fn errors(adapter: &Adapter, distant: Distant) -> Result<Vec<(f64, f64)>, ChartError> {
     let mut judged = JudgedApp::new(adapter, SMALL, Pixels::Float);
     let mut worst = |distance: f64| {
-        // An error of 0 has no place on a logarithmic axis.
+        // A logarithmic axis cannot show an error of 0.
         let mut worst = 1e-9;
         for factor in NEAR_BY {
             judged.set(|world| spawn(world, distant, (factor * distance) as f32));
@@ -58,9 +58,9 @@ fn errors(adapter: &Adapter, distant: Distant) -> Result<Vec<(f64, f64)>, ChartE
     distances().into_iter().map(&mut worst).collect()
 }
 
-/// How far the oracle's picture is, at most and as a part of it, from what it is for a viewer 3 units away, who sees
-/// the same: what is lost by definition. A lamp counts as being on the surface where it is nearer than 2·10⁻⁶ of the
-/// viewer's distance ([`COINCIDENT`](halfway::lighting::equations::COINCIDENT)).
+/// The largest relative difference of the oracle's picture from the same view for a viewer 3 units away: the loss by
+/// definition. A lamp counts as lying on the surface if it is nearer than 2·10⁻⁶ of the viewer's distance
+/// ([`COINCIDENT`](halfway::lighting::equations::COINCIDENT)).
 fn by_definition(distance: f64) -> Result<f64, ChartError> {
     let draw = |distance| drawn_at(SMALL, Mode::Mesh, |world| spawn(world, Distant::Viewer, distance));
     let (there, near) = (draw(distance as f32)?, draw(3.0)?);
@@ -119,7 +119,8 @@ mod tests {
             assert!(near[0].1 > 30.0 * near[6].1, "{name}: {near:?}");
             let far = errors(adapter, Distant::Viewer).expect("a lamp can be drawn");
             for (distance, error) in &far {
-                // And where the lamp is about to count as being on the surface, it may do so in one and not in the other.
+                // And where the lamp is about to count as being on the surface, it may do so in one and not in the
+                // other.
                 let bound = f64::from(f32::EPSILON) * (16.0 + 8.0 * distance);
                 assert!(*error < bound, "{name}, viewer at {distance}: {error}");
             }
@@ -128,7 +129,7 @@ mod tests {
             assert!((slope - 1.0).abs() < 0.3, "{name}: {slope}, {far:?}");
         }
         let by_definition = |distance| by_definition(distance).expect("a lamp can be drawn");
-        // The angle of view is rounded to f32; farther than that the lamp counts as being on the surface, where light is
+        // The angle of view is rounded to f32; beyond that the lamp counts as lying on the surface, where light is
         // full.
         assert!(by_definition(4e5) < 1e-5 && by_definition(4e6) > 0.5, "{} {}", by_definition(4e5), by_definition(4e6));
     }

@@ -1,4 +1,4 @@
-//! Surfaces that are seen nearly edge-on, in 32 bits.
+//! Surfaces seen nearly edge-on, in 32 bits.
 
 use super::prelude::*;
 
@@ -6,11 +6,11 @@ use super::prelude::*;
 const ANGLES: [f64; 9] = [60.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01];
 /// The viewer's distance.
 const DISTANCE: f64 = 3.0;
-/// What is judged; full light is 1.
+/// The least intensity that is judged; full light is 1.
 const LEAST: f64 = 0.05;
 
-/// A square under a lamp; about one unit of it is seen along the line of sight, whatever the angle. All of it is turned
-/// against every axis, so that a matrix has sums to round, and points are given as they lie in the world.
+/// A square under a lamp; about one unit of it is visible along the line of sight, whatever the angle. All of it is
+/// rotated against every axis, so that a matrix has sums to round, and points are given in world space.
 fn spawn(world: &mut World, degrees: f64) {
     let turn = Quat::from_euler(EulerRot::XYZ, 0.5, 0.6, 0.7);
     let angle = degrees.to_radians();
@@ -28,7 +28,7 @@ fn spawn(world: &mut World, degrees: f64) {
     show(world, mesh, Material::matte(LinearRgba::gray(0.9)), Shading::Phong);
 }
 
-/// The largest error of this adapter as a part of the oracle's intensity at each of [`ANGLES`].
+/// The largest error of this adapter relative to the oracle's intensity at each of [`ANGLES`].
 fn errors(adapter: &Adapter) -> Result<Vec<(f64, f64)>, ChartError> {
     let mut judged = JudgedApp::new(adapter, UVec2::splat(48), Pixels::Float);
     let error = |degrees: f64| {
@@ -38,8 +38,8 @@ fn errors(adapter: &Adapter) -> Result<Vec<(f64, f64)>, ChartError> {
     ANGLES.into_iter().map(error).collect()
 }
 
-/// How far a point moves along the surface, in units, where the surface moves by half a step of f32 at the viewer's
-/// distance; at an angle in degrees. Light changes by about as much there, as a part of itself.
+/// The distance that a point slides along the surface, in units, if the surface moves by half a step of f32 at the
+/// viewer's distance; at an angle in degrees. The light there changes by about as much, relatively.
 fn slip(degrees: f64) -> f64 {
     DISTANCE * f64::from(f32::EPSILON) / 2.0 / degrees.to_radians().sin()
 }

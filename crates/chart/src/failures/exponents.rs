@@ -4,7 +4,7 @@ use super::prelude::*;
 
 /// Exponents.
 const EXPONENTS: [f32; 9] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0];
-/// What is judged, as a part of the brightest intensity, which is 1.
+/// The least intensity that is judged, relative to the brightest, which is 1.
 const LEAST: f64 = 0.01;
 
 /// A highlight on a sphere that fills the picture, whatever its exponent, and nothing else.
@@ -18,7 +18,7 @@ fn spawn(world: &mut World, exponent: f32, reflectance: Reflectance) {
     world.entity_mut(object).insert(reflectance);
 }
 
-/// The largest error of this adapter as a part of the oracle's intensity, where that is more than a hundredth of the
+/// The largest error of this adapter relative to the oracle's intensity, where that is more than a hundredth of the
 /// highlight's, for each of these exponents.
 fn errors(adapter: &Adapter, reflectance: Reflectance, exponents: &[f32]) -> Result<Vec<(f64, f64)>, ChartError> {
     let mut judged = JudgedApp::new(adapter, UVec2::splat(64), Pixels::Float);
@@ -29,7 +29,7 @@ fn errors(adapter: &Adapter, reflectance: Reflectance, exponents: &[f32]) -> Res
     exponents.iter().map(error).collect()
 }
 
-/// What a cosine that is off by some roundings of f32 makes of a power: α times as many, and those of the power itself.
+/// The error of a power whose cosine is off by some roundings of f32: α times as many, and those of the power itself.
 /// Blinn's is a product of two vectors of three roundings each, and a sum of three; Phong's reflected direction has
 /// twice n's.
 fn bound(reflectance: Reflectance, exponent: f64) -> f64 {

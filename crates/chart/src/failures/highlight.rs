@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// What is charted over.
+/// The exponents of the chart.
 const SHININESS: [f32; 7] = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 /// Bands of the spheres.
 const LEVELS: [u32; 3] = [8, 16, 32];
@@ -21,15 +21,15 @@ fn pictures(level: u32, shininess: f32) -> Result<[Image; 4], ChartError> {
     })
 }
 
-/// The light of each in all, as a part of the true sphere's.
+/// The total light of each, relative to the true sphere's.
 fn energies(level: u32, shininess: f32) -> Result<[f64; 3], ChartError> {
     let [flat, gouraud, phong, truth] = pictures(level, shininess)?.each_ref().map(light);
     Ok([flat, gouraud, phong].map(|energy| energy / truth))
 }
 
-/// The light of each in all in every frame while the light moves across a sphere of 16 meridians: along a line that
-/// crosses meridians and parallels aslant, so that the highlight, which stays well inside the outline, meets vertices,
-/// edges and faces in turn.
+/// The total light of each in every frame while the light moves across a sphere of 16 meridians: along a line that
+/// crosses meridians and parallels at an angle, so that the highlight, which stays well inside the outline, meets
+/// vertices, edges and faces in turn.
 fn moving(frames: u32, size: u32) -> Result<[Vec<f64>; 4], ChartError> {
     let mut energies: [Vec<f64>; 4] = Default::default();
     for frame in 0..frames {

@@ -9,7 +9,7 @@ use super::prelude::*;
 fn receding(ratio: f64) -> [PolygonCorner<2>; 4] {
     [(-0.9, -0.9, 1.0), (0.9, -0.9, ratio), (0.9, 0.9, ratio), (-0.9, 0.9, 1.0)].map(|(x, y, w)| {
         let of_side = |side: f64| if side > 0.0 { 1.0 } else { 0.0 };
-        // What is farther away is smaller.
+        // Farther points are projected smaller.
         PolygonCorner { at: [x, y / w], w, value: [of_side(x), of_side(y)] }
     })
 }

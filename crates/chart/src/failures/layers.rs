@@ -1,10 +1,10 @@
-//! What 8 bits make of many blended layers.
+//! Many blended layers in 8 bits.
 
 use super::prelude::*;
 
 /// The most layers.
 const LAYERS: u32 = 64;
-/// What the layers glow.
+/// The emission of the layers.
 const GLOW: [f32; 3] = [1.0, 0.6, 0.3];
 const OPACITIES: [f32; 3] = [0.5, 0.05, 0.005];
 /// Four pixels for each number of layers.
@@ -27,7 +27,7 @@ fn spawn(world: &mut World, opacity: f32) {
     world.entity_mut(object).insert(Blend);
 }
 
-/// What n layers of opacity o and color c add up to, linear: c·(1 − (1 − o)ⁿ).
+/// The exact sum of n layers of opacity o and color c, linear: c·(1 − (1 − o)ⁿ).
 fn exact(layers: u32, opacity: f32) -> [f64; 3] {
     let shown = 1.0 - (1.0 - f64::from(opacity)).powi(layers as i32);
     GLOW.map(|glow| f64::from(glow) * shown)
@@ -45,7 +45,7 @@ fn drawn(adapter: &Adapter, opacity: f32) -> Result<Vec<(f64, f64)>, ChartError>
     Ok((1..=LAYERS).map(error).collect())
 }
 
-/// The same by arithmetic: each layer is blended exactly and rounded to the nearest step.
+/// The error by arithmetic: each layer is blended exactly and rounded to the nearest step.
 fn rounded(opacity: f32) -> Vec<(f64, f64)> {
     let o = f64::from(opacity);
     let mut held = [0.0; 3];
@@ -62,8 +62,8 @@ fn steps(there: [f64; 3], exact: [f64; 3]) -> f64 {
     there.into_iter().zip(exact).map(|(there, exact)| 255.0 * (there - exact).abs()).fold(0.0, f64::max)
 }
 
-/// The most that errors of `each` step a layer can add up to, in steps, after any number of layers: each·Σ (1 − o)ᵏ.
-/// Rounding to the nearest step errs by ½, an adapter that cuts off what is less than a step by 1.
+/// The largest accumulated error, in steps, of `each` step a layer, after any number of layers: each·Σ (1 − o)ᵏ.
+/// Rounding to the nearest step errs by ½, an adapter that truncates by 1.
 fn most(opacity: f64, each: f64) -> f64 {
     each / opacity
 }
@@ -120,7 +120,7 @@ mod tests {
                 assert!(error <= most(o, 0.5), "{opacity}, {count} layers: {error}");
             }
         }
-        // Blue of 0.3 at 0.005 is 0.38 of a step, and is never seen; 64 layers should come to 21.
+        // Blue of 0.3 at 0.005 is 0.38 of a step, and is never visible; 64 layers should come to 21.
         let lost = 255.0 * exact(LAYERS, 0.005)[2];
         let found = rounded(0.005).last().expect("64 layers").1;
         assert!(lost > 20.0 && found >= lost - 1e-9, "{lost}: {found}");

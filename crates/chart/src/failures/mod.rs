@@ -1,7 +1,7 @@
-//! Where methods fail: a page for each way, with pictures, a plot, the cause, the remedy, and the test that keeps it.
+//! Known failure modes: a page for each, with pictures, a plot, the cause, the remedy, and the test that keeps it.
 //!
-//! What methods lose is drawn by the oracle, and not by what implements them. What rounding loses is drawn by the
-//! adapters that are charted and by the CPU without a driver, and compared with the oracle.
+//! Losses of methods are drawn by the oracle, independently of their implementation. Losses by rounding are drawn by
+//! the charted adapters and by the CPU without a driver, and compared with the oracle.
 
 mod bands;
 mod blend_order;
@@ -29,20 +29,20 @@ use crate::figure::Figure;
 use crate::front::ChartedAdapter;
 use crate::page::{Page, Section, exact_data_uri};
 
-/// One way in which a method fails.
+/// A known failure mode.
 #[derive(Clone, Debug)]
 pub struct FailurePage {
     /// Names its file: lower case, no spaces.
     pub id: &'static str,
-    /// What is seen.
+    /// The visible effect.
     pub title: &'static str,
-    /// Why, in a line.
+    /// The cause, in a line.
     pub cause: &'static str,
-    /// What helps, in a line.
+    /// The remedy, in a line.
     pub remedy: &'static str,
-    /// The test that keeps what the page says.
+    /// The test that keeps the page's claims.
     pub test: &'static str,
-    /// How much, over what it depends on; of several one is shown at a time.
+    /// The error, over the quantity that it depends on; of several figures one is shown at a time.
     pub figures: Vec<Figure>,
     /// Captions and pictures.
     pub pictures: Vec<(&'static str, RgbImage)>,
@@ -77,7 +77,7 @@ impl FailurePage {
 type DrawnPage = fn() -> Result<FailurePage, ChartError>;
 type JudgedPage = fn(&[ChartedAdapter]) -> Result<FailurePage, ChartError>;
 
-/// Those that the oracle draws.
+/// The pages drawn by the oracle.
 const DRAWN: [DrawnPage; 13] = [
     highlight::page,
     bands::mach_bands,
@@ -93,13 +93,13 @@ const DRAWN: [DrawnPage; 13] = [
     blend_order::page,
     saturation::page,
 ];
-/// Those that adapters draw.
+/// The pages drawn by adapters.
 const JUDGED: [JudgedPage; 5] = [exponents::page, distances::page, edge_on::page, depth::page, layers::page];
 
-/// How many pages there are, for whoever is told of progress.
+/// The number of pages, for progress.
 pub const PAGES: u64 = (DRAWN.len() + JUDGED.len()) as u64;
 
-/// Every page, with what these adapters and the CPU without a driver lose; `done` is told after each.
+/// Every page, with the losses of these adapters and of the CPU without a driver; `done` is called after each.
 ///
 /// # Errors
 /// The first picture that could not be drawn.
@@ -118,7 +118,7 @@ mod testing {
 
     use super::*;
 
-    /// What draws in these tests, and always the CPU without a driver.
+    /// The adapters of these tests: the chosen one, and always the CPU without a driver.
     pub(super) fn test_drawers() -> &'static [ChartedAdapter] {
         static DRAWERS: OnceLock<Vec<ChartedAdapter>> = OnceLock::new();
         DRAWERS.get_or_init(|| {
@@ -127,7 +127,7 @@ mod testing {
         })
     }
 
-    /// The slope of log y against log x by least squares: the order of what goes with a power.
+    /// The slope of log y against log x by least squares: the exponent of a power law.
     pub(super) fn slope(points: &[(f64, f64)]) -> f64 {
         let points: Vec<_> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
         let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;

@@ -2,16 +2,16 @@
 
 use super::prelude::*;
 
-/// Cells along a side where the lamp is above the middle of one.
+/// Cells along a side if the lamp is above the middle of one.
 const ABOVE_CELL: u32 = 9;
-/// The same where it is above a vertex.
+/// Cells along a side if it is above a vertex.
 const ABOVE_VERTEX: u32 = 8;
 /// Heights of the lamp, in edge lengths.
 const HEIGHTS: [f64; 9] = [0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0];
 
-/// Cells of edge 1 in a square, drawn from above under a lamp whose light goes with 1/d².
+/// Cells of edge 1 in a square, drawn from above under a lamp whose light falls off as 1/d².
 fn spawn(world: &mut World, height: f64, cells: u32, shading: Shading) {
-    // 8 edges are seen.
+    // 8 edges are visible.
     camera_above(world, 40.0, 4.0);
     let lamp = PointLight { attenuation: Attenuation::INVERSE_SQUARE, ..PointLight::white() };
     world.spawn((lamp, Transform::from_xyz(0.0, 0.0, height as f32)));
@@ -19,15 +19,15 @@ fn spawn(world: &mut World, height: f64, cells: u32, shading: Shading) {
     world.entity_mut(object).insert(Transform::from_scale(Vec3::splat(0.5 * cells as f32)));
 }
 
-/// Of pixels an odd number a side, so that one lies on the axis.
+/// An odd number of pixels a side, so that one lies on the axis.
 fn picture(height: f64, cells: u32, shading: Shading) -> Result<Image, ChartError> {
     drawn_at(UVec2::splat(SIDE), Mode::Mesh, |world| spawn(world, height, cells, shading))
 }
 
 const SIDE: u32 = 129;
 
-/// What Gouraud shading shows right below a lamp at a height in edge lengths, and all light on eight by eight edges; the
-/// true light is 1.
+/// The light of Gouraud shading right below a lamp at a height in edge lengths, and the total light on eight by eight
+/// edges; the true light is 1.
 fn near_light(height: f64, cells: u32) -> Result<[f64; 2], ChartError> {
     let (gouraud, phong) = (picture(height, cells, Shading::Gouraud)?, picture(height, cells, Shading::Phong)?);
     let below = |image: &Image| image.pixel(SIDE / 2, SIDE / 2)[0];
@@ -81,8 +81,8 @@ mod tests {
     use super::*;
     use crate::failures::testing::is_near;
 
-    /// The light right below the lamp over the middle of a cell by formula: its corners are √(h² + ½) away, so that h/d³ is less by
-    /// (1 + 1/(2h²))^(−3/2).
+    /// The light right below the lamp over the middle of a cell by formula: its corners are √(h² + ½) away, so that
+    /// h/d³ is less by (1 + 1/(2h²))^(−3/2).
     fn below_by_formula(height: f64) -> f64 {
         (1.0 + 0.5 / (height * height)).powf(-1.5)
     }

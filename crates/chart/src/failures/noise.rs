@@ -3,7 +3,7 @@
 use super::prelude::*;
 use crate::front::scenes::random;
 
-/// How far vertices lie off the plane, in edge lengths.
+/// The deviation of vertices from the plane, in edge lengths.
 const SIGMAS: [f64; 5] = [0.002, 0.005, 0.01, 0.02, 0.05];
 /// Reflectance.
 const KD: f64 = 0.8;
@@ -83,12 +83,12 @@ mod tests {
     use super::*;
     use crate::failures::testing::is_near;
 
-    /// What [`roughness`] is for little noise.
+    /// The formula of [`roughness`] for little noise.
     ///
     /// The heights z of a triangle's corners tilt it by Σ z·∇λ, λ the barycentric coordinates, |∇λ| = 2/√3 for edge 1: by
-    /// √4·σ in all (RMS). The mean over the six triangles around a vertex is Σ z·d/3 over its neighbours, d the direction
-    /// to each: √(6/9)·σ; interpolated between vertices, two of which share 1/9 by their common neighbours, √(3.5/9)·σ over
-    /// a triangle. Half of the square goes along the light, whose part in the plane is √½.
+    /// √4·σ in all (RMS). The mean over the six triangles around a vertex is Σ z·d/3 over its neighbours, d the
+    /// direction to each: √(6/9)·σ; interpolated between vertices, two of which share 1/9 by their common neighbours,
+    /// √(3.5/9)·σ over a triangle. Half of the square goes along the light, whose part in the plane is √½.
     fn expected(sigma: f64, shading: Shading) -> f64 {
         let tilt = if shading == Shading::Flat { 4.0f64 } else { 3.5 / 9.0 };
         KD * sigma * (0.5 * 0.5 * tilt).sqrt()

@@ -4,14 +4,15 @@ use super::prelude::*;
 
 /// Bands of the spheres.
 const LEVELS: [u32; 4] = [4, 8, 16, 32];
-/// Where the viewer is: far away, and against the meridians, so that along the outline cells lie in every way.
+/// The viewer's distance: far away, and not along the meridians, so that cells along the outline lie in every
+/// direction.
 const DISTANCE: f32 = 5000.0;
 
 fn toward() -> Vec3 {
     (Quat::from_rotation_y(0.37) * Quat::from_rotation_x(-0.61)) * Vec3::Z
 }
 
-/// A sphere with its light exactly behind it: no point that is seen is lit.
+/// A sphere with its light exactly behind it: no visible point is lit.
 fn picture(level: u32, shading: Shading, mode: Mode) -> Result<Image, ChartError> {
     drawn(mode, |world| {
         let camera = Camera { fov_y: 2.0 * (1.08_f32 / DISTANCE).atan(), ..Camera::default() };
@@ -21,7 +22,7 @@ fn picture(level: u32, shading: Shading, mode: Mode) -> Result<Image, ChartError
     })
 }
 
-/// The brightest corner of all triangles that face the viewer: what pixels near it approach under interpolated normals.
+/// The brightest corner of all triangles that face the viewer, which nearby pixels approach under interpolated normals.
 fn brightest_corner(level: u32) -> f64 {
     let mesh = Mesh::from(UvSphere::new(1.0, 2 * level, level));
     let (toward, eye) = (toward().as_dvec3(), (DISTANCE * toward()).as_dvec3());
@@ -33,7 +34,7 @@ fn brightest_corner(level: u32) -> f64 {
     corners.flatten().fold(0.0, f64::max)
 }
 
-/// The most that can be seen of it: the sine of how far a corner's normal may be turned from that of a triangle, the
+/// The bound of the visible light: the sine of the largest angle between a corner's normal and a triangle's, the
 /// circumradius of a cell on the equator.
 fn most(level: u32) -> f64 {
     let half_cell = 0.5 * std::f64::consts::PI / f64::from(level);

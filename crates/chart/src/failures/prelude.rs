@@ -1,4 +1,4 @@
-//! The common parts of the pages: scenes, drawn by the oracle and by adapters, and how they are plotted.
+//! Shared by the pages: scenes, drawn by the oracle and by adapters, and their plots.
 
 use bevy_ecs::query::QueryFilter;
 use halfway::reference::Oracle;
@@ -36,7 +36,7 @@ pub(super) fn drawn(mode: Mode, spawn: impl FnOnce(&mut World)) -> Result<Image,
     drawn_at(SIZE, mode, spawn)
 }
 
-/// The same in another size.
+/// A scene drawn by the oracle in another size.
 pub(super) fn drawn_at(size: UVec2, mode: Mode, spawn: impl FnOnce(&mut World)) -> Result<Image, ChartError> {
     let mut app = set_up(spawn);
     Ok(Oracle::new(app.world_mut(), size)?.with_mode(mode).draw())
@@ -47,8 +47,8 @@ pub(super) fn camera(world: &mut World, from: Vec3, up: Vec3) {
     world.spawn((Camera::default(), Transform::from_translation(from).looking_at(Vec3::ZERO, up)));
 }
 
-/// A camera on the z axis that looks at the origin and sees `half` to each side of it, above and below; what is nearer
-/// than a tenth of its distance is left out.
+/// A camera on the z axis that looks at the origin and sees `half` to each side of it, above and below; its near plane
+/// is at a tenth of its distance.
 pub(super) fn camera_above(world: &mut World, distance: f32, half: f32) {
     let fov_y = (2.0 * (f64::from(half) / f64::from(distance)).atan()) as f32;
     let camera = Camera { fov_y, near: 0.1 * distance, ..Camera::default() };
@@ -60,7 +60,7 @@ pub(super) fn sun(world: &mut World, from: Vec3) {
     world.spawn((DirectionalLight::white(), Transform::default().looking_to(-from, Vec3::Y)));
 }
 
-/// A white light that does not weaken with the distance.
+/// A white light without attenuation.
 pub(super) fn lamp(world: &mut World, at: Vec3) {
     let lamp = PointLight { attenuation: Attenuation::NONE, ..PointLight::white() };
     world.spawn((lamp, Transform::from_translation(at)));
@@ -71,7 +71,7 @@ pub(super) fn show(world: &mut World, mesh: impl Into<Mesh>, material: Material,
     world.spawn((Mesh3d(mesh), material, shading, Transform::default())).id()
 }
 
-/// A mesh whose numbers this crate has made up itself.
+/// A mesh from numbers of this crate's own.
 pub(super) fn made(positions: Vec<Vec3>, normals: Option<Vec<Vec3>>, indices: Vec<u32>) -> Mesh {
     sound(Mesh::from_parts(positions, normals, None, indices))
 }
@@ -101,22 +101,22 @@ pub(super) fn four(size: UVec2, spawn: impl Fn(&mut World, Shading)) -> Result<[
     Ok([flat?, gouraud?, phong?, drawn_at(size, Mode::Surface, |world| spawn(world, Shading::Phong))?])
 }
 
-/// How far one picture is from another in linear intensity, on pixels that both cover.
+/// The difference of two pictures in linear intensity, on pixels that both cover.
 pub(super) fn compared(picture: &Image, truth: &Image) -> Result<Comparison, ChartError> {
     Ok(metrics::compare(picture, truth, Encoding::Raw)?)
 }
 
-/// The root of the mean squared difference of that.
+/// The root mean square of that difference.
 pub(super) fn rms(picture: &Image, truth: &Image) -> Result<f64, ChartError> {
     Ok(compared(picture, truth)?.linear.all.rmse)
 }
 
-/// All the light of a picture: the sum of its channels.
+/// The total light of a picture: the sum of its channels.
 pub(super) fn light(picture: &Image) -> f64 {
     picture.pixels().iter().flatten().sum()
 }
 
-/// What draws beside the oracle: those that are charted, and the CPU without a driver, if it is not among them.
+/// The renderers beside the oracle: the charted ones, and the CPU without a driver, if it is not among them.
 pub(super) fn drawers(charted: &[ChartedAdapter]) -> Result<Vec<ChartedAdapter>, ChartError> {
     let mut drawers = charted.to_vec();
     if !drawers.iter().any(|one| matches!(one.adapter, Adapter::Cpu(_))) {
@@ -145,7 +145,7 @@ impl JudgedApp {
         Self { app, size }
     }
 
-    /// Replaces what stands.
+    /// Replaces the scene.
     pub(super) fn set(&mut self, spawn: impl FnOnce(&mut World)) {
         let world = self.app.world_mut();
         clear::<With<Camera>>(world);
@@ -154,7 +154,7 @@ impl JudgedApp {
         spawn(world);
     }
 
-    /// What the adapter draws.
+    /// The adapter's picture.
     pub(super) fn picture(&mut self) -> Result<Image, ChartError> {
         Ok(match render_picture(&mut self.app)? {
             Picture::Float(image) => Image::from_float(&image),
@@ -162,12 +162,12 @@ impl JudgedApp {
         })
     }
 
-    /// What the oracle draws of the same; after [`picture`](Self::picture), which puts everything in its place.
+    /// The oracle's picture of the same; after [`picture`](Self::picture), which updates all transforms.
     pub(super) fn truth(&mut self) -> Result<Image, ChartError> {
         Ok(Oracle::new(self.app.world_mut(), self.size)?.with_mode(Mode::Mesh).draw())
     }
 
-    /// The largest error of a channel as a part of what it should be, over channels of more than `least`.
+    /// The largest error of a channel relative to its true value, over channels of more than `least`.
     pub(super) fn relative_error(&mut self, least: f64) -> Result<f64, ChartError> {
         let (picture, truth) = (self.picture()?, self.truth()?);
         let channels = picture.pixels().iter().flatten().zip(truth.pixels().iter().flatten());
@@ -177,8 +177,8 @@ impl JudgedApp {
     }
 }
 
-/// A scene as the first of these draws it, as the oracle does, and their difference times a factor; with the captions
-/// of the first and the last.
+/// The adapter's picture of a scene, the oracle's, and their difference times a factor; with the captions of the first
+/// and the last.
 pub(super) fn judged(
     drawers: &[ChartedAdapter],
     (size, pixels): (UVec2, Pixels),
@@ -201,18 +201,18 @@ fn clear<F: QueryFilter>(world: &mut World) {
     }
 }
 
-/// The shadings that are compared, the cheapest first.
+/// The compared shadings, the cheapest first.
 pub(super) const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 /// Their names, and that of the truth.
 pub(super) const NAMES: [&str; 4] = ["flat", "Gouraud", "Phong", "true surface"];
 
-/// The first channel along a row of pixels, from column to column where something is covered.
+/// The first channel along a row of pixels, from the first covered column to the last.
 pub(super) fn row(image: &Image, y: u32) -> Vec<(f64, f64)> {
     let covered = |x: u32| image.covered().is_none_or(|covered| covered[(y * SIZE.x + x) as usize]);
     (0..SIZE.x).filter(|x| covered(*x)).map(|x| (f64::from(x), image.pixel(x, y)[0])).collect()
 }
 
-/// Lines of five kinds that are told apart by colour and by stroke.
+/// Lines of five kinds that differ in colour and in stroke.
 pub(super) fn series(name: &str, kind: usize, points: &[(f64, f64)], marked: bool) -> Series {
     let styles = [
         (colors::RED, Marker::Square, Stroke::Dot),
@@ -230,7 +230,7 @@ pub(super) fn series(name: &str, kind: usize, points: &[(f64, f64)], marked: boo
     }
 }
 
-/// A marked line of what `value` tells over these places.
+/// A marked line of `value` at these positions.
 pub(super) fn measured<T>(
     name: &str,
     kind: usize,
@@ -241,7 +241,7 @@ pub(super) fn measured<T>(
     Ok(series(name, kind, &points.collect::<Result<Vec<_>, ChartError>>()?, true))
 }
 
-/// With four decimals where that tells it, else with a power of ten.
+/// With four decimals if that is precise enough, else with a power of ten.
 fn number(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || (1e-2..1e5).contains(&size) { format!("{value:.4}") } else { format!("{value:.2e}") }
@@ -252,7 +252,7 @@ pub(super) fn figure(id: &str, title: &str, axes: [Axis; 2], panel: Panel) -> Fi
     Figure::new(format!("failure-{id}"), title, axes, vec![panel])
 }
 
-/// As they are looked at.
+/// The pictures in the encoding of displays.
 pub(super) fn shown<const N: usize>(pictures: [(&'static str, &Image); N]) -> Vec<(&'static str, RgbImage)> {
     pictures.map(|(caption, picture)| (caption, picture.to_bytes(Encoding::Srgb))).into()
 }

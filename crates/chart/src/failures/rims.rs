@@ -21,13 +21,13 @@ fn picture(cells: u32, cutoff: f64, shading: Shading) -> Result<Image, ChartErro
     })
 }
 
-/// All light of a spot onto the middle of a cell under Gouraud shading, the true light being 1. `cells` of them make a
-/// side of the square that the spot is one side above; the cutoff is in degrees.
+/// The total light of a spot on the middle of a cell under Gouraud shading, relative to the true light. `cells` of them
+/// make a side of the square that the spot is one side above; the cutoff is in degrees.
 fn spot_light(cells: u32, cutoff: f64) -> Result<f64, ChartError> {
     Ok(light(&picture(cells, cutoff, Shading::Gouraud)?) / light(&picture(cells, cutoff, Shading::Phong)?))
 }
 
-/// The cutoff in degrees below which the cone meets no corner of the cell that it is above.
+/// The cutoff in degrees below which the cone contains no corner of the cell below it.
 fn first_met(cells: u32) -> f64 {
     let half_edge = 1.0 / f64::from(cells);
     (half_edge * 2f64.sqrt() / HEIGHT).atan().to_degrees()

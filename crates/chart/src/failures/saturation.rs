@@ -1,4 +1,4 @@
-//! Intensities above 1, and what policies make of them.
+//! Intensities above 1 under each policy.
 
 use halfway::reference::Oracle;
 
@@ -13,7 +13,7 @@ const POLICIES: [(&str, Intensity); 4] = [
 ];
 const SMOOTHLY: (&str, Intensity) = ("renormalise, smoothing 0.9", Intensity::Renormalize { smoothing: 0.9 });
 
-/// An orange light, three times too bright for the sphere, before a grey background.
+/// An orange light, three times too bright for the sphere, in front of a grey background.
 fn spawn(world: &mut World, intensity: Intensity) {
     camera_of(world, intensity);
     let light = DirectionalLight::from_color(LinearRgba::rgb(3.0, 1.5, 0.6));
@@ -22,13 +22,13 @@ fn spawn(world: &mut World, intensity: Intensity) {
     show(world, UvSphere::new(1.0, 64, 32), surface, Shading::Phong);
 }
 
-/// A camera of this policy before a grey background.
+/// A camera with this policy in front of a grey background.
 fn camera_of(world: &mut World, intensity: Intensity) {
     let camera = Camera { intensity, background: LinearRgba::gray(0.25), ..Camera::default() };
     world.spawn((camera, Transform::from_xyz(0.0, 0.0, 2.9).looking_at(Vec3::ZERO, Vec3::Y)));
 }
 
-/// As a picture of 0 to 1 holds it.
+/// Clamped to 0 … 1, as a picture holds it.
 fn clamped(image: &Image) -> Image {
     let (width, height) = image.dimensions();
     let pixels = image.pixels().iter().map(|pixel| pixel.map(|channel| channel.min(1.0)));
@@ -36,7 +36,7 @@ fn clamped(image: &Image) -> Image {
     image.covered().map_or(clamped.clone(), |covered| clamped.with_coverage(covered.to_vec()))
 }
 
-/// The intensities themselves, and what each policy makes of them.
+/// The intensities, and the picture under each policy.
 fn pictures() -> Result<(Image, [Image; 4]), ChartError> {
     let draw = |intensity| {
         let mut app = set_up(|world| spawn(world, intensity));
@@ -46,7 +46,7 @@ fn pictures() -> Result<(Image, [Image; 4]), ChartError> {
     Ok((draw(Intensity::Clamp)?, [clamp?, divided?, reinhard?, aces?]))
 }
 
-/// The hue of a color in degrees, as HSV has it; `None` of grey.
+/// The hue of a color in degrees, as in HSV; `None` for grey.
 fn hue([r, g, b]: [f64; 3]) -> Option<f64> {
     let (most, least) = (r.max(g).max(b), r.min(g).min(b));
     let range = most - least;
@@ -60,7 +60,7 @@ fn hue([r, g, b]: [f64; 3]) -> Option<f64> {
     })
 }
 
-/// Along the middle row: by how many degrees the hue is turned.
+/// The rotation of the hue, in degrees, along the middle row.
 fn turns(raw: &Image, shown: &Image) -> Vec<(f64, f64)> {
     let columns = row(raw, SIZE.y / 2).into_iter().map(|(x, _)| x as u32);
     let turn = |x: u32| Some((f64::from(x), hue(shown.pixel(x, SIZE.y / 2))? - hue(raw.pixel(x, SIZE.y / 2))?));
@@ -69,7 +69,7 @@ fn turns(raw: &Image, shown: &Image) -> Vec<(f64, f64)> {
 
 const FRAMES: u32 = 60;
 
-/// How the grey background is shown while a small lamp flies by a wall of facets, each of which flashes once.
+/// The displayed grey background while a small lamp passes a wall of facets, each of which flashes once.
 fn flicker(policy: Intensity) -> Result<Vec<(f64, f64)>, ChartError> {
     let mut app = set_up(|world| {
         camera_of(world, policy);
@@ -141,7 +141,7 @@ pub(super) fn page() -> Result<FailurePage, ChartError> {
 mod tests {
     use super::*;
 
-    /// The share of the sphere that shows one and the same red, the brightest.
+    /// The fraction of the sphere that shows one and the same red, the brightest.
     fn flat_share(shown: &Image) -> f64 {
         let covered = shown.covered().expect("the oracle knows");
         let reds = || shown.pixels().iter().zip(covered).filter(|(_, covered)| **covered).map(|(pixel, _)| pixel[0]);
@@ -167,7 +167,7 @@ mod tests {
         assert!(clamp > 0.3 && divided < 0.05, "{flat:?}");
         let jumps = [POLICIES[1].1, SMOOTHLY.1, POLICIES[2].1].map(|policy| jump(&flicker(policy).unwrap()));
         let [plain, smooth, curve] = jumps;
-        // A tenth of each change is left, by the smoothing.
+        // The smoothing leaves a tenth of each change.
         assert!(plain > 5.0 * smooth && smooth > 0.0 && curve < 1e-9, "{jumps:?}");
     }
 }

@@ -4,7 +4,7 @@ use halfway::mesh::{Cylinder, ParametricSurface, Tessellation};
 
 use super::prelude::*;
 
-/// The rows that 1024 cells of a square are in, and how many times as long as wide the cells are then.
+/// The numbers of rows of the 1024 cells of a square, and the ratio of length to width of the cells.
 const ROWS: [(u32, f64); 5] = [(32, 1.0), (16, 4.0), (8, 16.0), (4, 64.0), (2, 256.0)];
 /// Bands of the lanterns.
 const BANDS: [u32; 7] = [2, 4, 8, 16, 32, 64, 128];
@@ -41,7 +41,7 @@ fn lantern(bands: u32) -> Mesh {
             let at = |ring: u32, side: u32| ring * SIDES + side % SIDES;
             let (a, b) = (at(ring, side), at(ring, side + 1));
             let (c, d) = (at(ring + 1, side), at(ring + 1, side + 1));
-            // The vertex above lies before this one or after it.
+            // The vertex above lies before or after this one.
             if ring % 2 == 0 { [a, b, c, b, d, c] } else { [a, d, c, a, b, d] }
         })
     });
@@ -64,7 +64,7 @@ fn cylinder() -> Result<Image, ChartError> {
     drawn(Mode::Surface, |world| column(world, mesh, Shading::Phong))
 }
 
-/// The error, linear, that 95 % of the pixels of a lantern keep to against the true cylinder.
+/// The 95th percentile of the error, linear, over the pixels of a lantern relative to the true cylinder.
 fn lantern_error(bands: u32, shading: Shading) -> Result<f64, ChartError> {
     const P95: usize = 1;
     Ok(compared(&lantern_picture(bands, shading)?, &cylinder()?)?.linear.all.percentiles[P95])
@@ -87,7 +87,7 @@ pub(super) fn page() -> Result<FailurePage, ChartError> {
                 (H. A. Schwarz, 1880) flat shading gets worse the finer it is cut.",
         remedy: "Cells about as long as wide, with no angle near 180°; normals of the surface, not of the faces; shade at \
                  pixels.",
-        test: "thin_triangles_err_by_their_length_and_lanterns_by_their_angles",
+        test: "thin_triangles_err_by_length_and_lanterns_by_angle",
         figures: vec![
             figure(
                 "slivers-stretched",
@@ -118,7 +118,7 @@ mod tests {
     use super::*;
     use crate::failures::testing::{is_near, slope};
 
-    /// By how many degrees the faces of a lantern of N bands are turned from the cylinder's normal at their middle.
+    /// The angle in degrees between the faces of a lantern of N bands and the cylinder's normal at their middle.
     fn turned(bands: u32) -> f64 {
         let mesh = lantern(bands);
         let [a, b, c] = match mesh.triangles().next() {
@@ -129,14 +129,15 @@ mod tests {
         n.y.abs().atan2(n.x.hypot(n.z)).to_degrees()
     }
 
-    /// The same by formula: a face is as high as a band, and its base lies behind its tip by the sagitta 1 − cos(π/16).
+    /// The angle by formula: a face is as high as a band, and its base lies behind its tip by the sagitta 1 −
+    /// cos(π/16).
     fn turned_by(bands: u32) -> f64 {
         let sagitta = 1.0 - (std::f64::consts::PI / f64::from(SIDES)).cos();
         (sagitta * f64::from(bands) / HEIGHT).atan().to_degrees()
     }
 
     #[test]
-    fn thin_triangles_err_by_their_length_and_lanterns_by_their_angles() {
+    fn thin_triangles_err_by_length_and_lanterns_by_angle() {
         let found =
             [16, 8, 4].map(|rows: u32| (1.0 / f64::from(rows), stretched(rows).expect("a square can be drawn")));
         let slope = slope(&found);

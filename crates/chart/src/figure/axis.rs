@@ -1,15 +1,15 @@
-//! Axes: where a value stands, and which values are marked.
+//! Axes: the positions of values, and the ticks.
 
 /// A direction of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// What is measured, and its unit.
+    /// The quantity and its unit.
     pub label: String,
-    /// How values are spaced.
+    /// The spacing of values.
     pub scale: AxisScale,
 }
 
-/// How values are spaced along an axis.
+/// The spacing of values along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisScale {
     /// Equal differences are equally long.
@@ -21,9 +21,9 @@ pub enum AxisScale {
 /// A marked value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Where it stands ([`Axis::position`]).
+    /// Its position ([`Axis::position`]).
     pub position: f64,
-    /// How it is written.
+    /// Its text.
     pub label: String,
 }
 
@@ -46,12 +46,12 @@ impl Axis {
         Self { label: label.into(), scale: AxisScale::Log }
     }
 
-    /// Whether the value has a place on the axis: it is finite, and positive where the scale is logarithmic.
+    /// Whether the axis can show the value: it is finite, and positive on a logarithmic scale.
     pub fn shows(&self, value: f64) -> bool {
         value.is_finite() && (self.scale == AxisScale::Linear || value > 0.0)
     }
 
-    /// Where a value stands: itself, or its decimal logarithm.
+    /// The position of a value: itself, or its decimal logarithm.
     pub fn position(&self, value: f64) -> f64 {
         match self.scale {
             AxisScale::Linear => value,
@@ -59,7 +59,7 @@ impl Axis {
         }
     }
 
-    /// The least positions that hold the values, with 5 % of room at each end; (0, 1) for none.
+    /// The least range of positions that contains the values, with a margin of 5 % at each end; (0, 1) for none.
     pub(super) fn range(&self, values: impl Iterator<Item = f64>) -> (f64, f64) {
         let (low, high) = values
             .map(|value| self.position(value))
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_has_a_place_is_shown() {
+    fn only_representable_values_are_shown() {
         let (linear, log) = (Axis::linear(""), Axis::log(""));
         assert!(linear.shows(0.0) && linear.shows(-1.0) && !linear.shows(f64::NAN));
         assert!(log.shows(1e-300) && !log.shows(0.0) && !log.shows(-1.0) && !log.shows(f64::INFINITY));

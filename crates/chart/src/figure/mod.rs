@@ -1,18 +1,18 @@
-//! What a chart says, apart from how it is drawn: [`svg`] draws a [`Figure`] for a file, and its panels for the page.
+//! The data of a chart, independent of its drawing: [`svg`] draws a [`Figure`] for a file, and its panels for the page.
 
 mod axis;
 pub mod svg;
 
 pub use axis::{Axis, AxisScale, Tick};
 
-/// A chart of one or more panels whose axes and series mean the same.
+/// A chart of one or more panels with the same axes and series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Names the SVG file and the chart's place on the page: lower case, no spaces.
+    /// The name of the SVG file and of the chart on the page: lower case, no spaces.
     pub id: String,
-    /// Names the button that shows this chart, where a section has several.
+    /// The label of the button that shows this chart, if a section has several.
     pub name: String,
-    /// What is charted, in a line; no two charts of a page have the same.
+    /// The subject of the chart, in a line; unique on its page.
     pub title: String,
     /// The horizontal axis of every panel.
     pub x: Axis,
@@ -22,12 +22,12 @@ pub struct Figure {
     pub panels: Vec<Panel>,
 }
 
-/// One pair of axes with what is drawn in it.
+/// One pair of axes with its series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// What the panel shows and its neighbours do not.
+    /// The feature that distinguishes the panel from its neighbours.
     pub title: String,
-    /// What is drawn, the last on top.
+    /// The series, the last on top.
     pub series: Vec<Series>,
 }
 
@@ -41,9 +41,9 @@ impl Panel {
 /// Points that belong together, joined by a line in their order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// What the points have in common. Series of the same name in several panels share one entry of the legend.
+    /// The common feature of the points. Series of the same name in several panels share one entry of the legend.
     pub name: String,
-    /// How they are told from others.
+    /// The style that distinguishes it from others.
     pub style: Style,
     /// The points.
     pub points: Vec<Point>,
@@ -56,14 +56,13 @@ pub struct Point {
     pub x: f64,
     /// In the unit of the vertical axis.
     pub y: f64,
-    /// What the point is, in a line; empty for what is no measured point.
+    /// A description in a line; empty for points that were not measured.
     pub label: String,
-    /// From where to where half of the values lie that `x` is the median of, where it is one.
+    /// The quartiles of the values whose median `x` is, if it is one.
     pub quartiles: Option<(f64, f64)>,
     /// Whether another point is both faster and more accurate: it is drawn pale.
     pub faded: bool,
-    /// The place of what the page shows of it, in [`Page::cards`](crate::page::Page::cards); without one the page shows
-    /// the label.
+    /// The index of its details in [`Page::cards`](crate::page::Page::cards); without one the page shows the label.
     pub card: Option<usize>,
 }
 
@@ -74,16 +73,16 @@ impl Point {
     }
 }
 
-/// How a series looks. Colour, marker and line all differ between series, so that each is told by any of them.
+/// The style of a series. Colour, marker and line all differ between series, so that any of them is enough to tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
     /// sRGB.
     pub color: [u8; 3],
-    /// What stands at the points; `None` for a bare line.
+    /// The marker at the points; `None` for a bare line.
     pub marker: Option<Marker>,
     /// Whether markers are filled, or only outlined.
     pub filled: bool,
-    /// How the line is drawn.
+    /// The stroke of the line.
     pub stroke: Stroke,
 }
 
@@ -104,7 +103,7 @@ pub enum Marker {
     Star,
 }
 
-/// How a line is drawn.
+/// The stroke of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stroke {
     /// Without gaps.
@@ -113,7 +112,7 @@ pub enum Stroke {
     Dash,
     /// In dots.
     Dot,
-    /// Not at all: points alone.
+    /// No line: points alone.
     Nothing,
 }
 
@@ -129,7 +128,7 @@ impl Style {
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
-    /// The same in a colour that stands back.
+    /// A pale version of the style.
     fn faded(self) -> Self {
         // Three quarters of the way to white.
         Self { color: self.color.map(|channel| 255 - (255 - channel) / 4), ..self }
@@ -168,7 +167,7 @@ impl Figure {
         Self { id: id.into(), name: String::new(), title: title.into(), x, y, panels }
     }
 
-    /// How many panels stand side by side where there is room for them.
+    /// The number of panels side by side, if the page is wide enough.
     pub fn columns(&self) -> usize {
         match self.panels.len() {
             0 | 1 => 1,
@@ -177,26 +176,26 @@ impl Figure {
         }
     }
 
-    /// The same with the name of its button.
+    /// With a label for its button.
     #[must_use]
     pub fn named(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
     }
 
-    /// The ends of the axes: the least that hold every point of every panel, and a little more. In positions
+    /// The ends of the axes: the least that contain every point of every panel, and a margin. In positions
     /// ([`Axis::position`]): x, then y.
     pub fn ranges(&self) -> [(f64, f64); 2] {
         let all = || self.shown().map(|(_, point)| point);
         [self.x.range(all().flat_map(|point| self.reach(point))), self.y.range(all().map(|point| point.y))]
     }
 
-    /// Where a point and its quartiles stand along the horizontal axis.
+    /// The horizontal positions of a point and its quartiles.
     fn reach(&self, point: &Point) -> impl Iterator<Item = f64> {
         let (low, high) = point.quartiles.unwrap_or((point.x, point.x));
         [low, point.x, high].into_iter().filter(|x| self.x.shows(*x))
     }
 
-    /// Every point that can be drawn, with its series. A logarithmic axis has no place for 0.
+    /// Every point that can be drawn, with its series. A logarithmic axis cannot show 0.
     pub fn shown(&self) -> impl Iterator<Item = (&Series, &Point)> {
         let series = self.panels.iter().flat_map(|panel| &panel.series);
         series.flat_map(|series| self.drawn(series).map(move |point| (series, point)))

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{Axis, Figure, Panel, Point, Series, Stroke, Style};
 
-/// How large a figure is drawn, in pixels.
+/// The size of a figure in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
     /// Of the whole figure.
@@ -13,13 +13,13 @@ pub struct Size {
     pub row: u32,
 }
 
-/// What the title and one line of legend take at the top.
+/// The height of the title and one line of legend.
 const HEAD: u32 = 64;
-/// What another line of legend takes.
+/// The height of another line of legend.
 const LEGEND_LINE: u32 = 20;
 /// The length of line that stands for a series in the legend.
 const SWATCH: u32 = 36;
-/// What a panel's title and labels take around its plot: left, right, top, bottom.
+/// The space of a panel's title and labels around its plot: left, right, top, bottom.
 const MARGINS: [f64; 4] = [64.0, 14.0, 26.0, 48.0];
 
 /// Draws all of a figure: title, legend, and the panels below.
@@ -38,8 +38,8 @@ pub fn figure(figure: &Figure, size: Size) -> String {
     document((size.width, top + rows * size.row), &body)
 }
 
-/// Draws one panel of a figure alone, for a page that can be pointed at: over each point with a label lies an invisible circle of
-/// the class `hit`, with the point's label as `data-label` and its card, if it has one, as `data-card`.
+/// Draws one panel of a figure alone, for an interactive page: each point with a label gets an invisible circle of the
+/// class `hit`, with the point's label as `data-label` and its card, if it has one, as `data-card`.
 pub fn panel_with_hits(figure: &Figure, content: &Panel, size: Size) -> String {
     let (mut body, points) = panel(figure, content, size);
     for (series, point, (x, y)) in points.into_iter().filter(|(_, point, _)| !point.label.is_empty()) {
@@ -54,7 +54,7 @@ pub fn panel_with_hits(figure: &Figure, content: &Panel, size: Size) -> String {
     document((size.width, size.row), &body)
 }
 
-/// Draws a piece of a series' line with its marker, as the legend shows it.
+/// Draws a sample of a series' line with its marker, as the legend shows it.
 pub fn swatch(style: Style) -> String {
     document((SWATCH, 14), &piece((0.0, 7.0), style))
 }
@@ -81,7 +81,7 @@ fn piece((x, y): (f64, f64), style: Style) -> String {
     line(&[(x, y), (x + length, y)], style) + &mark((x + length / 2.0, y), style)
 }
 
-/// What a series takes in the legend. An SVG file does not say how wide its letters are; most are narrower than this.
+/// The width of a series in the legend. An SVG file does not say how wide its letters are; most are narrower than this.
 fn advance(series: &Series) -> f64 {
     f64::from(SWATCH) + 8.0 * series.name.chars().count() as f64 + 30.0
 }
@@ -118,12 +118,12 @@ fn head(figure: &Figure, legend: &[Vec<&Series>], width: u32) -> String {
     head
 }
 
-/// An axis between two places of the picture.
+/// An axis between two positions of the picture.
 struct Scale<'a> {
     axis: &'a Axis,
     /// Positions ([`Axis::position`]).
     range: (f64, f64),
-    /// Where they are drawn.
+    /// The pixels that they map to.
     pixels: (f64, f64),
 }
 
@@ -138,10 +138,10 @@ impl Scale<'_> {
     }
 }
 
-/// A point of a series, and where it is drawn.
+/// A point of a series, and its position in the drawing.
 type Placed<'a> = (&'a Series, &'a Point, (f64, f64));
 
-/// A panel, and where its points are.
+/// A panel, and the positions of its points.
 fn panel<'a>(figure: &'a Figure, panel: &'a Panel, size: Size) -> (String, Vec<Placed<'a>>) {
     let [left, right, top, bottom] = MARGINS;
     let (right, bottom) = (f64::from(size.width) - right, f64::from(size.row) - bottom);
@@ -215,7 +215,7 @@ fn line(points: &[(f64, f64)], style: Style) -> String {
     format!("<polyline points=\"{points}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2\"{dashes}/>\n")
 }
 
-/// The series' marker, if it has one. One that is not filled is white inside, so that no line shows through.
+/// The series' marker, if it has one. An outlined one is white inside, so that no line shows through.
 fn mark((x, y): (f64, f64), style: Style) -> String {
     let Some(marker) = style.marker else { return String::new() };
     let color = style.css();

@@ -12,7 +12,7 @@ pub use pages::Filters;
 pub use scenery::{ChartedImage, FilterView};
 pub use sweep::sweep;
 
-/// How much of the filters is measured.
+/// The extent of the filter measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilterPlan {
     /// Columns and rows of the pictures.
@@ -21,14 +21,14 @@ pub struct FilterPlan {
     pub frames: u32,
     /// Rounds in which the filters take turns while they are timed.
     pub rounds: u32,
-    /// How far the mean over a part of a footprint may be from that of its halves, before these are halved again.
+    /// The difference between the mean over a part of a footprint and that of its halves above which these are halved.
     pub tolerance: f64,
 }
 
 impl FilterPlan {
     /// Many minutes on two cores, most of them for the truth near the horizon.
     pub const FULL: Self = Self { size: [160, 120], frames: 6, rounds: 25, tolerance: 1e-4 };
-    /// The same with fewer pixels, frames and rounds: for a look.
+    /// Fewer pixels, frames and rounds: for a first impression.
     pub const QUICK: Self = Self { size: [96, 72], frames: 4, rounds: 7, tolerance: 1e-4 };
 
     /// The units that [`sweep`] reports: a truth each, and one for each timing.
@@ -38,12 +38,12 @@ impl FilterPlan {
     }
 }
 
-/// A way to look an image up.
+/// A texture filter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilterMethod {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
-    /// What it is.
+    /// Its settings.
     pub sampling: Sampling,
     /// The memory that it reads, in multiples of the image's.
     pub memory: f64,
@@ -56,7 +56,7 @@ const fn method(name: &'static str, texels: TexelFilter, levels: LevelFilter, me
 
 const PYRAMID: f64 = 4.0 / 3.0;
 
-/// The filters that are charted. The second is the one whose time is 1.
+/// The charted filters. The second is the one whose time is 1.
 pub const FILTERS: [FilterMethod; 13] = {
     use LevelFilter as L;
     use TexelFilter as T;
@@ -77,10 +77,10 @@ pub const FILTERS: [FilterMethod; 13] = {
     ]
 };
 
-/// The place in [`FILTERS`] of the one whose time is 1.
+/// The index in [`FILTERS`] of the one whose time is 1.
 pub const BILINEAR: usize = 1;
 
-/// What was found of one filter on one image.
+/// The figures of one filter on one image.
 #[derive(Clone, Debug, Default)]
 pub struct FilterFigures {
     /// The RMS error of each of [`FilterView::ALL`], in steps of 1/255 of the sRGB curve, not rounded.
@@ -89,23 +89,23 @@ pub struct FilterFigures {
     pub rms: f64,
     /// The mean of ꟻLIP over all of them.
     pub flip: f64,
-    /// The RMS of what changes from a frame of the moving camera to the next, less what changes in the truth, in such
+    /// The RMS of the change from a frame of the moving camera to the next, minus the change of the truth, in such
     /// steps.
     pub shimmer: f64,
     /// A lookup's time, in nanoseconds.
     pub ns: Spread,
-    /// The same over the bilinear filter's of the same round.
+    /// Its ratio to the bilinear filter's time of the same round.
     pub ratio: Spread,
-    /// What the steepest turned view looks like, as a `data:` address.
+    /// The picture of the steepest rotated view, as a `data:` address.
     pub picture: String,
 }
 
-/// What was found of one image.
+/// The figures of one image.
 #[derive(Clone, Debug)]
 pub struct MeasuredFilters {
     /// The image.
     pub image: ChartedImage,
-    /// What the truth of the steepest turned view looks like, as a `data:` address.
+    /// The true picture of the steepest rotated view, as a `data:` address.
     pub truth: String,
     /// For each of [`FILTERS`].
     pub figures: Vec<FilterFigures>,

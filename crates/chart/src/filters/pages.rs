@@ -8,12 +8,12 @@ use crate::pareto::front_panel;
 use crate::progress::Progress;
 use crate::timing::{Machine, Spread};
 
-/// What filters of images cost and lose.
+/// The cost and the error of texture filters.
 #[derive(Clone, Debug)]
 pub struct Filters {
-    /// How much was measured.
+    /// The extent of the measurements.
     pub plan: FilterPlan,
-    /// What was found of each image.
+    /// The figures of each image.
     pub images: Vec<MeasuredFilters>,
     facts: Vec<(String, String)>,
 }
@@ -32,7 +32,7 @@ const LEAD: &str = "A pixel sees more than one texel where an image is reduced. 
                     the camera moves. Down is nearer to the truth, left is faster.";
 
 impl Filters {
-    /// Measures; `progress` hears of [`FilterPlan::units`].
+    /// Measures; `progress` counts [`FilterPlan::units`].
     ///
     /// # Errors
     /// A picture that cannot be put on the page.

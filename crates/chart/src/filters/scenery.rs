@@ -1,4 +1,4 @@
-//! What the filters are shown: images on a plane, and from where it is seen.
+//! The inputs of the filters: images on a plane, and the views of it.
 
 use halfway::texture::{PictureMap, Pyramid, TexelImage};
 
@@ -71,17 +71,17 @@ fn noise(x: u32, y: u32, seed: u32) -> f64 {
     sum / 3.5
 }
 
-/// From where the plane is seen.
+/// A view of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilterView {
     /// Degrees between the view and the plane's normal.
     pub tilt: f64,
-    /// Degrees by which the image is turned on the plane.
+    /// The rotation of the image on the plane, in degrees.
     pub turn: f64,
 }
 
 impl FilterView {
-    /// Upright and turned: seen from above, at two slants, and toward the horizon.
+    /// Upright and rotated: seen from above, at two slants, and toward the horizon.
     pub const ALL: [Self; 8] = [
         Self { tilt: 0.0, turn: 0.0 },
         Self { tilt: 0.0, turn: 30.0 },
@@ -100,8 +100,8 @@ impl FilterView {
         format!("{}°{}", self.tilt, if self.turn == 0.0 { "" } else { ", turned" })
     }
 
-    /// Where the pixels of a picture of this size lie on the image, after `frame` frames of the camera's way over the
-    /// plane.
+    /// The map from the pixels of a picture of this size to the image, after `frame` frames of the camera's motion over
+    /// the plane.
     ///
     /// The camera is one unit away from the plane, and opens 60°. A unit has 300 texels where it is seen from above, 3
     /// a pixel of pictures 120 pixels high, and 100 elsewhere, 1 a pixel near the lower edge. Between two frames the

@@ -1,4 +1,4 @@
-//! The measuring.
+//! The measurements.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -15,25 +15,25 @@ use crate::page::data_uri;
 use crate::progress::Progress;
 use crate::timing::{Spread, ratios};
 
-/// A lookup: where, and how (u, v) changes from a pixel to the next.
+/// A lookup: the point, and the derivatives of (u, v) along x and y.
 type Lookup<T> = ([T; 2], [[T; 2]; 2]);
 
-/// One picture of the plane: what is looked up at each pixel, and what is right. Pixels that do not wholly see the
-/// plane have neither.
+/// One picture of the plane: the lookup of each pixel, and the true value. Pixels that are not wholly on the plane have
+/// neither.
 struct PlanePicture {
     lookups: Vec<Option<Lookup<f64>>>,
     truth: Vec<Option<[f64; 3]>>,
 }
 
-/// Measures every filter on every image; `progress` hears of [`FilterPlan::units`].
+/// Measures every filter on every image; `progress` counts [`FilterPlan::units`].
 ///
 /// # Errors
 /// A picture that cannot be put on the page.
 pub fn sweep(plan: &FilterPlan, progress: &mut Progress<'_>) -> Result<Vec<MeasuredFilters>, ChartError> {
-    ChartedImage::ALL.into_iter().map(|image| of_image(plan, image, progress)).collect()
+    ChartedImage::ALL.into_iter().map(|image| measure_image(plan, image, progress)).collect()
 }
 
-fn of_image(
+fn measure_image(
     plan: &FilterPlan,
     image: ChartedImage,
     progress: &mut Progress<'_>,
@@ -123,8 +123,8 @@ fn errors(
     Ok(found)
 }
 
-/// Times of lookups in f32, as the CPU's rasterizer does them, over all pixels of all views. The filters take turns,
-/// each round begun by another one, after one that is not timed.
+/// Times of lookups in f32, as in the CPU's rasterizer, over all pixels of all views. The filters take turns, each
+/// round begun by another one, after one that is not timed.
 fn timed(plan: &FilterPlan, pyramid: &Pyramid, still: &[PlanePicture], figures: &mut [FilterFigures]) {
     let single = |&([u, v], [x, y]): &Lookup<f64>| -> Lookup<f32> {
         ([u as f32, v as f32], [[x[0] as f32, x[1] as f32], [y[0] as f32, y[1] as f32]])
@@ -151,7 +151,7 @@ fn timed(plan: &FilterPlan, pyramid: &Pyramid, still: &[PlanePicture], figures: 
         }
     }
     for (figures, own) in figures.iter_mut().zip(&times) {
-        figures.ns = Spread::of(own);
+        figures.ns = Spread::from_values(own);
         figures.ratio = ratios(own, &times[BILINEAR]);
     }
 }
@@ -161,7 +161,7 @@ fn steps(color: &[f64; 3]) -> [f64; 3] {
     color.map(|linear| 255.0 * Encoding::Srgb.encode(linear.clamp(0.0, 1.0)))
 }
 
-/// A picture; what does not see the plane is gray in all of them.
+/// A picture; pixels beside the plane are gray in all of them.
 fn image(plan: &FilterPlan, pixels: &[Option<[f64; 3]>]) -> Image {
     Image::new(plan.size[0], plan.size[1], pixels.iter().map(|pixel| pixel.unwrap_or([0.3; 3])).collect())
 }
@@ -170,7 +170,7 @@ fn uri(plan: &FilterPlan, pixels: &[Option<[f64; 3]>]) -> Result<String, ChartEr
     Ok(data_uri(&image(plan, pixels).to_bytes(Encoding::Srgb))?)
 }
 
-/// A root of a mean of squares.
+/// A root mean square.
 #[derive(Default)]
 struct Mean {
     squares: f64,

@@ -1,4 +1,4 @@
-//! How far a picture is from the true one.
+//! Errors of a picture.
 
 use halfway::prelude::{Encoding, Samples};
 use halfway::reference::Image;
@@ -12,7 +12,7 @@ pub struct ErrorFigures {
     pub rms: f64,
     /// The largest.
     pub max: f64,
-    /// What 95 % keep to.
+    /// The 95th percentile.
     pub p95: f64,
 }
 
@@ -34,11 +34,11 @@ pub struct PointErrors {
     pub whole: AreaErrors,
 }
 
-/// What a pixel should show.
+/// The true values of the pixels.
 pub(super) struct Truth {
-    /// At its centre: what one sample is judged by inside of surfaces.
+    /// At their centres: the truth for one sample inside of surfaces.
     pub(super) center: Image,
-    /// Averaged over its area: what four samples are judged by, and everything at silhouettes.
+    /// Averaged over their areas: the truth for four samples, and for everything at silhouettes.
     pub(super) average: Image,
 }
 
@@ -58,7 +58,7 @@ impl PointErrors {
         encoding: Encoding,
     ) -> Result<Self, SizeMismatch> {
         let inside = if samples == Samples::One { &truth.center } else { &truth.average };
-        // A picture that does not know what it covers counts everywhere.
+        // Without coverage, every pixel counts.
         let [whole, average] = [picture, &truth.average].map(without_coverage);
         let steps = |picture: &Image, truth: &Image| {
             Ok::<ErrorFigures, SizeMismatch>((&metrics::compare(picture, truth, encoding)?.steps.all).into())

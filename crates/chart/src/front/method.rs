@@ -1,8 +1,8 @@
-//! How a scene is drawn.
+//! Rendering methods.
 
 use halfway::prelude::*;
 
-/// Methods that are drawn alike in a chart.
+/// Methods with one style in a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// Without lights.
@@ -13,25 +13,25 @@ pub enum Family {
     Gouraud,
     /// Once a pixel.
     Phong,
-    /// The diffuse and the specular term at places of their own.
+    /// The diffuse and the specular term at different frequencies.
     Mixed,
 }
 
-/// How a scene is drawn, whatever it says itself.
+/// A rendering method, which overrides the scene's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
-    /// Where the lights' terms are evaluated.
+    /// The frequencies of the lights' terms.
     pub terms: Terms,
-    /// How highlights are made; `None` leaves that to the scene.
+    /// The reflectance of highlights; `None` keeps the scene's.
     pub reflectance: Option<Reflectance>,
     /// Whether the viewer is infinitely far away for the highlights, whatever the scene says.
     pub infinite_viewer: bool,
-    /// Whether point lights shine as if they were infinitely far away, from where they are as seen from the origin.
-    /// Only tried where the distance of a light is what is changed.
+    /// Whether point lights become directional, as seen from the origin. Only used where the distance of a light
+    /// varies.
     pub far_lights: bool,
     /// Samples a pixel.
     pub samples: Samples,
-    /// How far points of meshes may move, in pixels ([`Tolerance::pixels`]): 0, which draws every triangle, or 1.
+    /// The movement of mesh points that is tolerated, in pixels ([`Tolerance::pixels`]): 0 draws every triangle, or 1.
     pub pixels: f32,
 }
 
@@ -39,7 +39,7 @@ impl Family {
     /// Every family.
     pub const ALL: [Self; 5] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong, Self::Mixed];
 
-    /// As a reader knows it.
+    /// Its name for readers.
     pub fn name(self) -> &'static str {
         match self {
             Self::Constant => "constant colour",
@@ -52,7 +52,7 @@ impl Family {
 }
 
 impl Method {
-    /// Without lights: what every frame is timed against.
+    /// Without lights: the reference of all times.
     pub const CONSTANT: Self = Self::new(Terms::NONE);
     /// Both terms once a triangle.
     pub const FLAT: Self = Self::new(Terms::both(Frequency::Triangle));
@@ -69,9 +69,9 @@ impl Method {
         Self { terms, reflectance: None, infinite_viewer: false, far_lights: false, samples, pixels: 0.0 }
     }
 
-    /// Every method worth trying on a scene: flat, Gouraud and Phong shading, each also with an infinite viewer and with
-    /// four samples; every mixture of terms, the constant colour among them; Phong shading with detail within a pixel;
-    /// and, where the scene reflects by Phong's formula, Blinn's in its place.
+    /// Every method worth trying on a scene: flat, Gouraud and Phong shading, each also with an infinite viewer and
+    /// with four samples; every mixture of terms, the constant colour among them; Phong shading with detail within a
+    /// pixel; and, where the scene reflects by Phong's formula, Blinn's in its place.
     pub fn all(scene: Option<Reflectance>) -> Vec<Self> {
         let mut methods = vec![Self::CONSTANT];
         for plain in [Self::FLAT, Self::GOURAUD, Self::PHONG] {
@@ -81,7 +81,7 @@ impl Method {
                 methods.extend(others.map(|reflectance| Self { reflectance: Some(reflectance), ..plain }));
             }
         }
-        // A term that is shaded once a triangle goes with no other.
+        // A term that is shaded once a triangle cannot be combined with another.
         let frequencies = [Frequency::Never, Frequency::Vertex, Frequency::Fragment];
         for diffuse in frequencies {
             let others = frequencies.into_iter().filter(|specular| *specular != diffuse);
@@ -91,7 +91,7 @@ impl Method {
         methods
     }
 
-    /// The few that tell most.
+    /// The most informative few.
     pub fn few(scene: Option<Reflectance>) -> Vec<Self> {
         let phong = Self::PHONG;
         let mut methods = vec![Self::FLAT, Self::GOURAUD, Self::HIGHLIGHTS, phong];
@@ -106,7 +106,7 @@ impl Method {
         methods
     }
 
-    /// What it is drawn like.
+    /// Its family in charts.
     pub fn family(self) -> Family {
         let Terms { diffuse, specular } = self.terms;
         match diffuse {
@@ -118,7 +118,7 @@ impl Method {
         }
     }
 
-    /// As the command line takes it: its parts with hyphens between.
+    /// Its name on the command line: its parts with hyphens between.
     pub fn id(self) -> String {
         let Terms { diffuse, specular } = self.terms;
         let start = match self.family() {
@@ -139,7 +139,7 @@ impl Method {
         self.additions().into_iter().fold(start, |all, (_, words)| format!("{all}, {words}"))
     }
 
-    /// What distinguishes it from others of its terms, as the command line takes it and in words.
+    /// Its differences from others of its terms, as the command line takes them and in words.
     fn additions(self) -> Vec<(&'static str, &'static str)> {
         let reflectance = self.reflectance.map(|reflectance| match reflectance {
             Reflectance::Phong => ("by-phong", "Phong reflectance"),
@@ -155,7 +155,7 @@ impl Method {
         reflectance.into_iter().chain(others.into_iter().filter_map(|(is, names)| is.then_some(names))).collect()
     }
 
-    /// Has everything in `world` drawn so.
+    /// Applies the method to everything in `world`.
     pub fn apply(self, world: &mut World) {
         world.insert_resource(ViewTolerance(Tolerance { steps: 0.0, pixels: self.pixels }));
         let objects: Vec<Entity> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
@@ -178,7 +178,7 @@ impl Method {
     }
 }
 
-/// Where a term is evaluated, in a word and in words.
+/// The frequency of a term, in a word and in words.
 fn place(frequency: Frequency) -> (&'static str, &'static str) {
     match frequency {
         Frequency::Never => ("never", "left out"),

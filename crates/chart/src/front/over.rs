@@ -1,5 +1,5 @@
-//! What it costs and saves to take lights and viewers as infinitely far away: error and time over the number of lights
-//! and the distance of one.
+//! The cost and the saving of treating lights and viewers as infinitely far away: error and time over the number of
+//! lights and the distance of one.
 
 use std::f32::consts::TAU;
 
@@ -10,21 +10,21 @@ use crate::error::ChartError;
 use crate::page::{PageTable, Section};
 use crate::progress::Progress;
 
-/// What is changed.
+/// The quantity that varies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over {
-    /// The number of point lights near a sphere, all of them of one light in all.
+    /// The number of point lights near a sphere, with a constant total of light.
     Lights,
-    /// How far a point light is from the middle of a sphere, in its radii.
+    /// The distance of a point light from the middle of a sphere, in its radii.
     Distance,
 }
 
 /// A family of scenes, measured.
 #[derive(Clone, Debug)]
 pub struct MeasuredOver {
-    /// What was changed.
+    /// The quantity.
     pub over: Over,
-    /// How much of it there was, with a point for each of [`Over::methods`].
+    /// Its values, with a point for each of [`Over::methods`].
     pub steps: Vec<(f64, Vec<FrontPoint>)>,
 }
 
@@ -40,7 +40,7 @@ impl Over {
         }
     }
 
-    /// What it is measured at; in a quick run every other, and few lights.
+    /// The values measured; in a quick run every other, and few lights.
     fn steps(self, quick: bool) -> Vec<f64> {
         let all: &[f64] = match self {
             Self::Lights if quick => &[1.0, 4.0, 16.0, 64.0],
@@ -51,17 +51,17 @@ impl Over {
         all.to_vec()
     }
 
-    /// The methods that are compared: Phong shading, with the viewer, the lights or both infinitely far away.
+    /// The compared methods: Phong shading, with the viewer, the lights or both infinitely far away.
     pub fn methods() -> [Method; 4] {
         let phong = Method::PHONG;
         let far_viewer = Method { infinite_viewer: true, ..phong };
         [phong, far_viewer, Method { far_lights: true, ..phong }, Method { far_lights: true, ..far_viewer }]
     }
 
-    /// A sphere of 64 meridians under what is changed; without attenuation, so that nothing but the direction depends
-    /// on the distance.
+    /// A sphere of 64 meridians under the varied light; without attenuation, so that only the direction depends on the
+    /// distance.
     fn scene(self, step: f64) -> ChartedScene {
-        ChartedScene::of_surfaces(&format!("{}, {step}", self.name()), self.name(), [32], move |world, bands| {
+        ChartedScene::from_surfaces(&format!("{}, {step}", self.name()), self.name(), [32], move |world, bands| {
             world.insert_resource(GlobalAmbient(LinearRgba::rgb(0.15, 0.15, 0.15)));
             world.spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 2.9)));
             let grey = Material { shininess: 32.0, ..Material::matte(LinearRgba::gray(0.5)) };
@@ -84,7 +84,7 @@ impl Over {
 }
 
 impl MeasuredOver {
-    /// The units of [`Progress`] that [`all`](Self::all) will report.
+    /// The units of [`Progress`] that [`all`](Self::all) reports.
     pub fn units(plan: &FrontPlan, adapters: usize) -> u64 {
         let each = |over: Over| over.steps(!plan.all_methods).len() * (1 + adapters.min(1) * Over::methods().len());
         Over::ALL.into_iter().map(|over| each(over) as u64).sum()

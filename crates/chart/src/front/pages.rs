@@ -14,10 +14,10 @@ use crate::pareto::front_panel;
 use crate::progress::Progress;
 use crate::timing::{FRAME_TIME, Machine, Spread};
 
-/// The points of every scene, and what drew them.
+/// The points of every scene, and the machines.
 #[derive(Clone, Debug)]
 pub struct Fronts {
-    /// How much was measured.
+    /// The extent of the measurements.
     pub plan: FrontPlan,
     /// Each adapter by the name that it was opened by, with the machine.
     pub machines: Vec<(String, Machine)>,
@@ -29,10 +29,10 @@ const LEAD: &str = "Flat shading evaluates the lighting once a triangle, Gouraud
                     a pixel, and mixtures each term at a place of its own. Each is drawn at several details, timed, and \
                     compared with the truth. Down is more accurate, left is faster. Point at a point to see its picture, the \
                     truth’s, the difference and every figure, click to keep them; click an entry of the legend to hide it.";
-/// The errors whose fastest method is told, in steps of 1/255.
+/// The errors for which the fastest method is listed, in steps of 1/255.
 const ERROR_STEPS: [f64; 5] = [8.0, 4.0, 2.0, 1.0, 0.5];
 
-/// Which pixels count: the name of the area, and its errors.
+/// The pixels that count: the name of the area, and its errors.
 type Area = (&'static str, fn(&PointErrors) -> &AreaErrors);
 
 const COVERED: Area = ("covered pixels", |errors| &errors.covered);
@@ -50,7 +50,7 @@ const MEASURES: [Measure; 4] = [
 ];
 
 impl Fronts {
-    /// Measures; `progress` hears of [`FrontPlan::units`].
+    /// Measures; `progress` counts [`FrontPlan::units`].
     ///
     /// # Errors
     /// The first picture that could not be drawn.
@@ -83,7 +83,7 @@ impl Fronts {
         }
     }
 
-    /// What to choose for a scene, in words: a sentence for each adapter.
+    /// The recommendation for a scene, in words: a sentence for each adapter.
     pub fn advice(&self, scene: &MeasuredScene) -> Vec<String> {
         let told = self.machines.iter().map(|(adapter, _)| {
             let choices = choices(&points_on(scene, adapter));
@@ -103,7 +103,7 @@ impl Fronts {
         svg::figure(&Figure::new("chart", title, axes, panels.collect()), Size { width: 900, row: 330 })
     }
 
-    /// What was measured on what.
+    /// The machine and the extent of the measurements.
     fn facts(&self) -> Vec<(String, String)> {
         let mut facts: Vec<(String, String)> = Vec::new();
         for (name, machine) in &self.machines {
@@ -175,8 +175,8 @@ impl Fronts {
         Figure::new(id, format!("{}: {label} against time", scene.name), axes, panels.collect()).named(name)
     }
 
-    /// A scene's name as a part of a file's, without the folder where that tells it from the others; what may trouble a
-    /// file system is a hyphen.
+    /// A scene's name as a part of a file name, without the folder if that is unambiguous; characters that may trouble
+    /// a file system become hyphens.
     fn file_stem(&self, scene: &MeasuredScene) -> String {
         let last = |name: &str| name.rsplit(['/', '\\']).next().unwrap_or(name).to_owned();
         let alike = self.scenes.iter().filter(|other| last(&other.name) == last(&scene.name)).count();
@@ -236,11 +236,11 @@ fn points_on<'a>(scene: &'a MeasuredScene, adapter: &str) -> Vec<&'a FrontPoint>
     scene.points.iter().filter(|point| point.adapter == adapter).collect()
 }
 
-/// The milliseconds of the reference frame, each of whose medians some points' turns had. Points are measured one after
-/// the other, while a machine may become faster or slower: only multiples of one time compare.
+/// The milliseconds of the reference frame, the median over the points' turns. Points are measured one after the other,
+/// while a machine may become faster or slower: only multiples of one time can be compared.
 fn reference_ms(points: &[&FrontPoint]) -> f64 {
     let references: Vec<f64> = points.iter().map(|point| point.ms.median / point.ratio.median).collect();
-    Spread::of(&references).median
+    Spread::from_values(&references).median
 }
 
 /// The points of the front, the fastest first.
@@ -249,8 +249,8 @@ fn front<'a>(points: &[&'a FrontPoint], (_, area): Area) -> Vec<&'a FrontPoint> 
     crate::pareto::front(&places).into_iter().map(|place| points[place]).collect()
 }
 
-/// The fastest point for each of [`ERROR_STEPS`]; those that serve for several errors are told once, by the least of
-/// them.
+/// The fastest point for each of [`ERROR_STEPS`]; a point that serves for several errors is listed once, with the least
+/// of them.
 fn choices(points: &[&FrontPoint]) -> String {
     let front = front(points, COVERED);
     let reference_ms = reference_ms(points);
@@ -264,7 +264,7 @@ fn choices(points: &[&FrontPoint]) -> String {
     told.collect::<Vec<_>>().join("; ")
 }
 
-/// The front: what a time buys, and what an error costs.
+/// The front: the least error for each time, and the least time for each error.
 fn table(adapter: &str, points: &[&FrontPoint], area: Area) -> PageTable {
     let reference_ms = reference_ms(points);
     let rows = front(points, area).into_iter().map(|point| {

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{AreaErrors, PointErrors};
 use crate::timing::Spread;
 
-/// What one method took for one scene at one detail on one adapter, and how far off it was.
+/// The time and the error of one method for one scene at one detail on one adapter.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct FrontPoint {
     /// The scene's name.
@@ -26,37 +26,37 @@ pub struct FrontPoint {
     pub adapter: String,
     /// Times of a frame in milliseconds.
     pub ms: Spread,
-    /// The same as multiples of the reference frame's in the same round: the scene's coarsest detail, in a constant
-    /// colour, on the same adapter.
+    /// The ratio to the reference frame of the same round: the scene's coarsest detail, in a constant colour, on the
+    /// same adapter.
     pub ratio: Spread,
-    /// How far its pictures are from the truth.
+    /// The errors of its pictures.
     #[serde(flatten)]
     pub errors: PointErrors,
     /// Whether it is on the front of its scene and adapter, by RMS error of covered pixels.
     pub front: bool,
-    /// The same by RMS error of the whole picture.
+    /// Whether it is on the front by RMS error of the whole picture.
     pub front_whole: bool,
-    /// What measures it again.
+    /// The command that measures it again.
     pub command: String,
-    /// What was drawn, small, as a `data:` address.
+    /// The picture, small, as a `data:` address.
     #[serde(skip)]
     pub picture: String,
-    /// Where that differs from the truth.
+    /// Its difference from the truth.
     #[serde(skip)]
     pub difference: String,
-    /// Its place among all points of a run.
+    /// Its index among all points of a run.
     #[serde(skip)]
     pub place: usize,
 }
 
 impl FrontPoint {
-    /// What it is, in a line.
+    /// A description in a line.
     pub fn describe(&self) -> String {
         format!("{}, {}, {} triangles", self.words, self.detail_words, self.triangles)
     }
 
-    /// Time and error, of which fronts are made: the median of the ratio, and the RMS error in steps of 1/255 of the
-    /// picture that is timed.
+    /// Time and error, the axes of fronts: the median of the ratio, and the RMS error in steps of 1/255 of the picture
+    /// that is timed.
     pub fn time_and_error(&self, area: fn(&PointErrors) -> &AreaErrors) -> (f64, f64) {
         (self.ratio.median, area(&self.errors).steps.rms)
     }

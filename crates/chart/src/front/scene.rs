@@ -1,11 +1,11 @@
-//! What is charted.
+//! The charted scenes.
 
 use halfway::prelude::*;
 
-/// How finely a scene's surfaces are drawn.
+/// The level of detail of a scene's surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SceneDetail {
-    /// Surfaces cut into N cells; what a cell is, is the scene's.
+    /// Surfaces cut into N cells, as the scene defines them.
     Cells(u32),
     /// Meshes with one of N of their triangles left.
     Simplified(u32),
@@ -33,36 +33,36 @@ impl SceneDetail {
     }
 }
 
-/// While this resource is there nothing of the scene moves, so that all pictures show the same moment: its first.
+/// While this resource exists the scene does not move, so that all pictures show its first moment.
 #[derive(Resource, Clone, Copy, Debug, Default)]
 pub struct Still;
 
-/// Puts a scene, its surfaces in this detail, into an App that has halfway's plugins, or says why it cannot.
+/// Spawns a scene in this detail into an App that has halfway's plugins, or says why it cannot.
 pub type BuildScene = Box<dyn Fn(&mut App, SceneDetail) -> Result<(), String>>;
 
-/// Something to look at, and how finely it can be drawn.
+/// A scene, and its levels of detail.
 pub struct ChartedScene {
-    /// As the command line takes it: lower case, no spaces, unless it is a file's.
+    /// Its name on the command line: lower case, no spaces, unless it is a file's.
     pub name: String,
-    /// What there is to see, in a line.
+    /// Its subject, in a line.
     pub about: String,
-    /// What errors are errors from, in a line: the true surface, or the mesh with every triangle.
+    /// The reference of the errors, in a line: the true surface, or the mesh with every triangle.
     pub truth: String,
     /// From coarse to fine; not empty.
     pub details: Vec<SceneDetail>,
-    /// What the oracle draws to compare with; as fine as any of `details`, or finer.
+    /// The detail that the oracle draws as reference; at least as fine as any of `details`.
     pub true_detail: SceneDetail,
-    /// How the scene reflects, where the scene does not say so itself.
+    /// The reflectance of the scene, for scenes that do not set it.
     pub reflectance: Option<Reflectance>,
     /// Width and height of its pictures in pixels.
     pub size: UVec2,
-    /// Puts it into an App.
+    /// Spawns it into an App.
     pub build: BuildScene,
 }
 
 impl ChartedScene {
     /// A scene of surfaces that are known by formula, in square pictures, all of it made at once by `spawn`.
-    pub fn of_surfaces(
+    pub fn from_surfaces(
         name: &str,
         about: &str,
         details: impl IntoIterator<Item = u32>,
@@ -87,7 +87,7 @@ impl ChartedScene {
     }
 
     /// A scene of meshes, simplified or as they are.
-    pub fn of_meshes(name: &str, about: &str, build: BuildScene) -> Self {
+    pub fn from_meshes(name: &str, about: &str, build: BuildScene) -> Self {
         Self {
             name: name.to_owned(),
             about: about.to_owned(),

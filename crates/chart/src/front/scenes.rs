@@ -13,7 +13,7 @@ pub fn all() -> Vec<ChartedScene> {
 /// A unit sphere.
 pub fn sphere() -> ChartedScene {
     let about = "a sphere of a radius of 1 under one directional light, shininess 32";
-    ChartedScene::of_surfaces("sphere", about, [8, 16, 32, 64, 128], |world, bands| {
+    ChartedScene::from_surfaces("sphere", about, [8, 16, 32, 64, 128], |world, bands| {
         let camera = Transform::from_xyz(0.0, 0.0, 2.9);
         shiny_object(world, UvSphere::new(1.0, 2 * bands, bands).into(), camera);
     })
@@ -22,7 +22,7 @@ pub fn sphere() -> ChartedScene {
 /// The Utah teapot.
 pub fn teapot() -> ChartedScene {
     let about = "the Utah teapot, Bézier patches of n × n cells each, under one directional light, shininess 32";
-    ChartedScene::of_surfaces("teapot", about, [2, 4, 8, 16, 32], |world, cells| {
+    ChartedScene::from_surfaces("teapot", about, [2, 4, 8, 16, 32], |world, cells| {
         // The spout is farther from the axis than the handle.
         let middle = Vec3::new(0.16, -0.05, 0.0);
         let camera = Transform::from_translation(middle + Vec3::new(0.0, 3.2, 6.0)).looking_at(middle, Vec3::Y);
@@ -30,7 +30,7 @@ pub fn teapot() -> ChartedScene {
     })
 }
 
-/// The same by Phong's formula, for which Blinn's may stand.
+/// The teapot by Phong's formula, which Blinn's may replace.
 pub fn teapot_by_phong() -> ChartedScene {
     ChartedScene {
         name: "teapot-by-phong".to_owned(),
@@ -40,8 +40,8 @@ pub fn teapot_by_phong() -> ChartedScene {
     }
 }
 
-/// Warm grey, whose channels lie apart, so that they do not err alike, with a highlight; the brightest sum stays below
-/// 1. The light comes from over the viewer's right shoulder.
+/// Warm grey, whose channels differ, so that they do not err alike, with a highlight; the brightest sum stays below 1.
+/// The light comes from over the viewer's right shoulder.
 fn shiny_object(world: &mut World, mesh: Mesh, camera: Transform) {
     world.insert_resource(GlobalAmbient(LinearRgba::rgb(0.15, 0.15, 0.15)));
     world.spawn((Camera::default(), camera));
@@ -56,7 +56,11 @@ fn shiny_object(world: &mut World, mesh: Mesh, camera: Transform) {
 /// A stone of 146,688 triangles with the noise of a scanner.
 pub fn scan() -> ChartedScene {
     let about = "a stone of 146,688 triangles with the noise of a scanner, under a directional and a point light";
-    ChartedScene::of_meshes("scan", about, Box::new(|app, _| build(app.world_mut()).map_err(|error| error.to_string())))
+    ChartedScene::from_meshes(
+        "scan",
+        about,
+        Box::new(|app, _| build(app.world_mut()).map_err(|error| error.to_string())),
+    )
 }
 
 fn build(world: &mut World) -> Result<(), MeshError> {
@@ -88,10 +92,10 @@ pub fn stone_mesh(segments: u32, rings: u32) -> Result<Mesh, MeshError> {
     Ok(mesh)
 }
 
-/// A mesh of our own: it has triangles, and finite numbers.
+/// Unwraps a mesh of our own: it has triangles, and finite numbers.
 ///
 /// # Panics
-/// It has not.
+/// It is invalid.
 pub fn sound<T, E: std::fmt::Display>(made: Result<T, E>) -> T {
     match made {
         Ok(made) => made,
@@ -99,12 +103,12 @@ pub fn sound<T, E: std::fmt::Display>(made: Result<T, E>) -> T {
     }
 }
 
-/// A number of the place: the bits of its coordinates, mixed.
+/// A hash of the position's bits.
 fn place(p: Vec3) -> u32 {
     p.to_array().iter().fold(0, |all, x| (all ^ (x + 2.0).to_bits()).wrapping_mul(0x9E37_79B1).rotate_left(13))
 }
 
-/// The k-th random number of the i-th thing, in [0, 1): the PCG hash of O'Neill 2014, so that every run draws the same.
+/// The k-th random number of element i, in [0, 1): the PCG hash of O'Neill 2014, so that every run draws the same.
 pub fn random(i: u32, k: u32) -> f32 {
     let state = (i.wrapping_mul(8).wrapping_add(k)).wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);

@@ -11,14 +11,14 @@ use super::{ChartedScene, Method, SceneDetail, Still};
 use crate::error::ChartError;
 use crate::timing::settle;
 
-/// The meshes of one scene, simplified: found once for all of its Apps, which make them in the same order.
+/// The meshes of one scene, simplified: computed once for all of its Apps, which create them in the same order.
 #[derive(Default)]
 pub(super) struct SimplifiedMeshes {
     by_detail: HashMap<u32, Vec<Mesh>>,
 }
 
 impl SimplifiedMeshes {
-    /// Puts simplified meshes in the place of those of the world, where the detail is made of such.
+    /// Replaces the meshes of the world by simplified ones, if the detail asks for it.
     fn simplify(&mut self, world: &mut World, detail: SceneDetail) {
         let SceneDetail::Simplified(to) = detail else { return };
         let mut assets = world.resource_mut::<Assets<Mesh>>();
@@ -32,7 +32,7 @@ impl SimplifiedMeshes {
     }
 }
 
-/// One scene at one detail, at its first moment until it is told to [`move_on`](SceneStage::move_on).
+/// One scene at one detail, at its first moment until [`move_on`](SceneStage::move_on).
 pub(super) struct SceneStage {
     app: App,
 }
@@ -79,7 +79,7 @@ impl SceneStage {
         Ok(Self { app })
     }
 
-    /// What every pixel of the scene should show, by `samples` × `samples` of them for its average.
+    /// The true value of every pixel, by `samples` × `samples` of them for its average.
     pub(super) fn truth(scene: &ChartedScene, size: UVec2, samples: u32) -> Result<(Truth, Encoding), ChartError> {
         let mut app = App::new();
         app.add_plugins(HalfwayPlugins::reference());
@@ -95,7 +95,7 @@ impl SceneStage {
         Ok((Truth { center, average }, encoding))
     }
 
-    /// The picture of the scene as it stands.
+    /// The picture of the scene at this moment.
     pub(super) fn picture(&mut self, encoding: Encoding) -> Result<Image, ChartError> {
         Ok(match render_picture(&mut self.app)? {
             Picture::Byte(image) => Image::from_bytes(&image, encoding),
@@ -121,7 +121,7 @@ impl SceneStage {
         Ok(picture.covered().unwrap_or_default().to_vec())
     }
 
-    /// Lets the scene move, if anything of it does, and makes it ready to be timed.
+    /// Lets the scene move, if it is animated, and prepares it for timing.
     pub(super) fn move_on(&mut self) -> Result<(), ChartError> {
         self.app.world_mut().remove_resource::<Still>();
         Ok(settle(&mut self.app)?)

@@ -1,4 +1,4 @@
-//! Measures points.
+//! Measures the points.
 
 use halfway::prelude::*;
 use halfway::reference::Image;
@@ -15,26 +15,26 @@ use crate::pareto;
 use crate::progress::Progress;
 use crate::timing::{Spread, in_turns, ratios};
 
-/// How much is measured.
+/// The extent of the measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrontPlan {
-    /// By what the sides of pictures are divided.
+    /// The divisor of the sides of pictures.
     pub smaller: u32,
     /// The most details of a scene, the coarsest and the finest among them.
     pub details: usize,
-    /// Every method, or the few that tell most.
+    /// Whether to measure every method, or the most informative few.
     pub all_methods: bool,
-    /// How often every method is timed in turn, at most.
+    /// The most rounds in which every method is timed in turn.
     pub rounds: u32,
     /// The time in milliseconds that the timed frames of one method may take at one detail; 3 rounds are made at least.
     pub budget_ms: f64,
     /// Samples along each side of a pixel, for the truth about its average.
     pub samples: u32,
-    /// What is left out.
+    /// A filter for the measurements.
     pub only: FrontFilter,
 }
 
-/// What is measured of all that there is; all of it by default.
+/// A filter for the measurements; empty by default, which measures all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrontFilter {
     /// The methods of these names ([`Method::id`]); all for none.
@@ -43,7 +43,7 @@ pub struct FrontFilter {
     pub detail: Option<String>,
 }
 
-/// Something that draws.
+/// An adapter with its name.
 #[derive(Clone)]
 pub struct ChartedAdapter {
     /// The name that it was opened by.
@@ -52,31 +52,31 @@ pub struct ChartedAdapter {
     pub adapter: Adapter,
 }
 
-/// One scene, what it should look like, and everything that was measured of it.
+/// One scene, its truth, and its measurements.
 #[derive(Clone, Debug, Default)]
 pub struct MeasuredScene {
     /// Its name.
     pub name: String,
-    /// What there is to see.
+    /// Its subject.
     pub about: String,
-    /// What errors are errors from.
+    /// The reference of the errors.
     pub truth: String,
     /// The oracle's picture, small, as a `data:` address.
     pub picture: String,
-    /// Every adapter, detail and method; in this order, the last the quickest to change.
+    /// The points of every adapter, detail and method; in this order, the last varying fastest.
     pub points: Vec<FrontPoint>,
 }
 
-/// How many Apps take turns: enough that the reference frame costs little, few enough for the memory of a small
-/// machine.
+/// The number of Apps that take turns: enough that the reference frame costs little, few enough for the memory of a
+/// small machine.
 const TOGETHER: usize = 8;
-/// The fewest rounds that a median is taken of, however long a frame takes: one that is disturbed then leaves it alone.
+/// The fewest rounds of a median, however long a frame takes, so that a single disturbance does not change it.
 const LEAST: u32 = 3;
 /// The longer side that small pictures have at most, in pixels.
 const SMALL: u32 = 240;
 
 impl FrontPlan {
-    /// What the project's figures come from: half an hour on two cores without a GPU.
+    /// The plan of the project's own figures: half an hour on two cores without a GPU.
     pub const FULL: Self = Self {
         smaller: 1,
         details: 5,
@@ -86,7 +86,7 @@ impl FrontPlan {
         samples: 4,
         only: FrontFilter { methods: Vec::new(), detail: None },
     };
-    /// The same with fewer methods, details, rounds and pixels: for a look, and for CI.
+    /// Fewer methods, details, rounds and pixels: for a first impression, and for CI.
     pub const QUICK: Self = Self {
         smaller: 2,
         details: 3,
@@ -108,7 +108,7 @@ impl FrontPlan {
         (0..count).filter_map(|i| all.get(place(i)).copied()).collect()
     }
 
-    /// The methods that a scene is drawn with.
+    /// The methods for a scene.
     pub fn methods_of(&self, scene: &ChartedScene) -> Vec<Method> {
         let every = Method::all(scene.reflectance);
         if self.only.methods.is_empty() {
@@ -116,11 +116,11 @@ impl FrontPlan {
         }
         let far = every.iter().map(|method| Method { far_lights: true, ..*method });
         let all: Vec<Method> = every.iter().copied().chain(far).collect();
-        // In the order in which they are asked for.
+        // In the order of the filter.
         self.only.methods.iter().filter_map(|only| all.iter().find(|method| method.id() == *only)).copied().collect()
     }
 
-    /// The units of [`Progress`] that [`sweep`] will report.
+    /// The units of [`Progress`] that [`sweep`] reports.
     pub fn units(&self, scenes: &[ChartedScene], adapters: usize) -> u64 {
         let of = |scene| 1 + adapters * self.details_of(scene).len() * self.methods_of(scene).len();
         scenes.iter().map(|scene| of(scene) as u64).sum()
@@ -174,7 +174,7 @@ fn measure_scene(
     Ok(MeasuredScene { name: name.clone(), about: about.clone(), truth: truth.clone(), picture, points })
 }
 
-/// Notes which points of one scene and adapter are on its fronts.
+/// Marks the points of one scene and adapter that are on its fronts.
 fn mark_fronts(points: &mut [FrontPoint]) {
     let front = |area: fn(&PointErrors) -> &AreaErrors| {
         pareto::front(&points.iter().map(|point| point.time_and_error(area)).collect::<Vec<_>>())
@@ -185,7 +185,7 @@ fn mark_fronts(points: &mut [FrontPoint]) {
     }
 }
 
-/// A scene with what it should look like.
+/// A scene with its truth.
 struct Judge<'a> {
     plan: &'a FrontPlan,
     scene: &'a ChartedScene,
@@ -211,7 +211,7 @@ impl<'a> Judge<'a> {
         SceneStage::drawn(self.scene, detail, method, self.size, &adapter.adapter, &mut self.meshes)
     }
 
-    /// A point for each of the methods. `covered` is what one sample covers at this detail.
+    /// A point for each of the methods. `covered` is the coverage with one sample at this detail.
     fn measure(
         &mut self,
         (adapter, detail): (&ChartedAdapter, SceneDetail),
@@ -235,7 +235,7 @@ impl<'a> Judge<'a> {
         let found = methods.iter().zip(&stages).zip(&times[1..]).zip(judged);
         let points = found.map(|(((method, stage), own), (errors, [picture, difference]))| FrontPoint {
             triangles: stage.triangles(),
-            ms: Spread::of(own),
+            ms: Spread::from_values(own),
             ratio: ratios(own, &times[0]),
             errors,
             picture,
@@ -245,7 +245,7 @@ impl<'a> Judge<'a> {
         Ok(points.collect())
     }
 
-    /// What is known of a point before it is measured.
+    /// The known data of a point before it is measured.
     fn unmeasured(&self, detail: SceneDetail, method: Method, adapter: &ChartedAdapter) -> FrontPoint {
         let (scene, adapter) = (self.scene.name.clone(), adapter.name.clone());
         let (id, method_id) = (detail.id(), method.id());
@@ -272,12 +272,12 @@ fn judge(
 ) -> Result<(PointErrors, [String; 2]), ChartError> {
     let errors = PointErrors::new(picture, method.samples, truth, encoding)?;
     let [small, truth] = [picture, &truth.average].map(reduced);
-    // Steps of the largest error of the small picture, so that all of it is seen.
+    // The scale fits the largest error of the small picture, so that all of it is visible.
     let difference = metrics::difference(&small, &truth, encoding, Scale::default())?;
     Ok((errors, [data_uri(&small.to_bytes(encoding))?, data_uri(&difference)?]))
 }
 
-/// The times of as many rounds as the plan has time for.
+/// The times of as many rounds as the plan allows.
 fn in_time(apps: &mut [&mut App], plan: &FrontPlan) -> Result<Vec<Vec<f64>>, ChartError> {
     let first = plan.rounds.min(LEAST);
     let mut times = in_turns(apps, first)?;
@@ -291,8 +291,8 @@ fn in_time(apps: &mut [&mut App], plan: &FrontPlan) -> Result<Vec<Vec<f64>>, Cha
     Ok(times)
 }
 
-/// The picture with squares of pixels averaged, so that no side is longer than [`SMALL`]. What is left over at the
-/// right and the bottom is dropped.
+/// The picture with squares of pixels averaged, so that no side is longer than [`SMALL`]. The remainder at the right
+/// and the bottom is dropped.
 fn reduced(image: &Image) -> Image {
     let (width, height) = image.dimensions();
     let factor = width.max(height).div_ceil(SMALL).max(1);

@@ -1,4 +1,4 @@
-//! The page as HTML.
+//! Pages as HTML.
 
 use serde_json::json;
 
@@ -8,7 +8,7 @@ use crate::figure::svg::{self, Size, escaped};
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
-/// Before everything else, so that it hears of every failure.
+/// Before everything else, so that it catches every failure.
 const GUARD: &str = "window.addEventListener('error', (event) => {
   const problem = document.getElementById('problem');
   problem.textContent = 'Points cannot be pointed at: ' + event.message;
@@ -36,12 +36,12 @@ pub(super) fn html(page: &Page) -> String {
     )
 }
 
-/// The HTML of each, one after the other.
+/// The concatenated HTML of all items.
 fn each<T>(items: impl IntoIterator<Item = T>, html: impl Fn(T) -> String) -> String {
     items.into_iter().map(html).collect()
 }
 
-/// JSON that cannot end the element it stands in: `<` occurs in strings only, where it may be written otherwise.
+/// JSON that cannot end its script element: `<` occurs in strings only, where it can be escaped.
 fn in_script(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
@@ -65,7 +65,7 @@ fn section(section: &Section) -> String {
     )
 }
 
-/// The buttons that choose among figures; none where there is no choice.
+/// The buttons that choose among figures; none for a single one.
 fn buttons(figures: &[Figure]) -> String {
     if figures.len() < 2 {
         return String::new();
@@ -173,7 +173,7 @@ mod tests {
         }
         // Two figures of two panels of four points.
         assert_eq!(html.matches("class=\"hit\"").count(), 16);
-        // Names of namespaces are no addresses.
+        // Names of namespaces are not addresses.
         let html = html.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
         for outside in ["http:", "https:", "src=\"//", "@import", "url("] {
             assert!(!html.contains(outside), "{outside}");

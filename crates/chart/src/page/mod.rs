@@ -1,4 +1,4 @@
-//! Pages: each is one HTML file that needs no other and no network, with its charts beside it as SVG.
+//! Pages: self-contained HTML files that need no network, with their charts beside them as SVG.
 
 mod html;
 mod picture;
@@ -10,40 +10,40 @@ pub use picture::{data_uri, exact_data_uri};
 use crate::figure::Figure;
 use crate::figure::svg::{self, Size};
 
-/// A file's name and what is in it.
+/// A file's name and content.
 pub type NamedFile = (String, String);
 
-/// What stands on the page, from top to bottom.
+/// The content of a page, from top to bottom.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
     /// The name of its file.
     pub file: String,
     /// The page's title.
     pub title: String,
-    /// How to read it: a paragraph.
+    /// The introduction: a paragraph.
     pub lead: String,
-    /// What was measured on what: names and values.
+    /// The machine and the extent of the measurements: names and values.
     pub facts: Vec<(String, String)>,
     /// The chapters.
     pub sections: Vec<Section>,
-    /// What the points of charts show when they are pointed at ([`Point::card`](crate::figure::Point::card)).
+    /// The details of points, shown when the pointer is on them ([`Point::card`](crate::figure::Point::card)).
     pub cards: Vec<Card>,
     /// The pictures of the cards, as `data:` addresses.
     pub images: Vec<String>,
-    /// What else belongs to the page.
+    /// Further files of the page.
     pub beside: Vec<NamedFile>,
 }
 
-/// What a point of a chart is.
+/// The details of a point of a chart.
 #[derive(Clone, Debug, Serialize)]
 pub struct Card {
-    /// What it is, in a line.
+    /// Its description, in a line.
     pub title: String,
-    /// Captions, and places in [`Page::images`].
+    /// Captions, and indices in [`Page::images`].
     pub pictures: Vec<(String, usize)>,
     /// Names and values.
     pub rows: Vec<(String, String)>,
-    /// What measures it again.
+    /// The command that measures it again.
     pub command: String,
 }
 
@@ -52,33 +52,33 @@ pub struct Card {
 pub struct Section {
     /// Its heading.
     pub title: String,
-    /// What it shows, and how that was measured: paragraphs.
+    /// The content, and how it was measured: paragraphs.
     pub text: Vec<String>,
     /// Captions and pictures, the latter as `data:` addresses.
     pub pictures: Vec<(String, String)>,
-    /// The same chart of several quantities, of which one is shown at a time.
+    /// The same chart of several quantities, one shown at a time.
     pub figures: Vec<Figure>,
-    /// Figures as numbers.
+    /// The figures as numbers.
     pub tables: Vec<PageTable>,
-    /// Pages and files beside this one, those of its charts apart: what they hold, and their names.
+    /// Pages and files beside this one, except those of its charts: their contents, and their names.
     pub links: Vec<(String, String)>,
 }
 
 /// Rows under a header.
 #[derive(Clone, Debug)]
 pub struct PageTable {
-    /// What the rows are.
+    /// The subject of the rows.
     pub caption: String,
-    /// How many columns at the left hold names; the others hold numbers.
+    /// The number of columns at the left that hold names; the others hold numbers.
     pub names: usize,
     /// The names of the columns.
     pub header: Vec<String>,
-    /// As many cells in each as in the header.
+    /// Rows with as many cells as the header.
     pub rows: Vec<Vec<String>>,
 }
 
 impl Page {
-    /// The page, what else belongs to it, and its charts as SVG.
+    /// The page, its further files, and its charts as SVG.
     pub fn files(&self) -> Vec<NamedFile> {
         let figures = self.sections.iter().flat_map(|section| &section.figures);
         let svg = figures.map(|figure| {
@@ -117,7 +117,7 @@ fn svg_file(figure: &Figure) -> String {
     format!("{}.svg", figure.id)
 }
 
-/// The text with its first letter as at the beginning of a sentence.
+/// The text with its first letter capitalised.
 pub fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().collect::<String>() + letters.as_str()).unwrap_or_default()

@@ -1,4 +1,4 @@
-//! Pictures inside the page.
+//! Pictures embedded in the page.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -6,10 +6,10 @@ use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ImageEncoder as _, ImageError, RgbImage};
 
-/// The picture to the bit, as a PNG in a `data:` address.
+/// The exact picture, as a PNG in a `data:` address.
 ///
 /// # Errors
-/// What the encoder has to say; it has no reason to fail in memory.
+/// The encoder's error, which does not occur in memory.
 pub fn exact_data_uri(picture: &RgbImage) -> Result<String, ImageError> {
     let mut png = Vec::new();
     let encoder = PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
@@ -17,11 +17,11 @@ pub fn exact_data_uri(picture: &RgbImage) -> Result<String, ImageError> {
     Ok(format!("data:image/png;base64,{}", STANDARD.encode(png)))
 }
 
-/// The picture as a JPEG in a `data:` address: a tenth of a PNG's size, for pages with hundreds of pictures that are
-/// looked at and not measured.
+/// The picture as a JPEG in a `data:` address: a tenth of a PNG's size, for pages with hundreds of pictures for
+/// display only.
 ///
 /// # Errors
-/// What the encoder has to say; it has no reason to fail in memory.
+/// The encoder's error, which does not occur in memory.
 pub fn data_uri(picture: &RgbImage) -> Result<String, ImageError> {
     const QUALITY: u8 = 85;
     let mut jpeg = Vec::new();
@@ -47,7 +47,7 @@ mod tests {
         let uri = data_uri(&picture).unwrap();
         let jpeg = STANDARD.decode(uri.strip_prefix("data:image/jpeg;base64,").unwrap()).unwrap();
         let back = image::load_from_memory(&jpeg).unwrap().to_rgb8();
-        // Chroma of slopes as gentle as these keeps to a few steps at this quality.
+        // Chroma of such gentle slopes is accurate to a few steps at this quality.
         assert!(back.iter().zip(picture.iter()).all(|(a, b)| a.abs_diff(*b) < 16));
     }
 }

@@ -1,14 +1,14 @@
-//! What was measured on.
+//! The machine that figures come from.
 
 use halfway::render::{Adapter, Cpu};
 use serde::Serialize;
 
-/// The machine and the programs that figures come from. What cannot be found out is `unknown`.
+/// The machine and the programs that figures come from. Unknown facts are `unknown`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Machine {
-    /// The adapter's name, as its driver tells it; of the CPU without a driver its vectors.
+    /// The adapter's name from its driver; for the CPU without a driver, its vectors.
     pub adapter: String,
-    /// The interface that it is driven through, such as `vulkan`, or `cpu`.
+    /// The graphics API, such as `vulkan`, or `cpu`.
     pub backend: String,
     /// Whether the adapter draws on the CPU.
     pub software: bool,
@@ -60,7 +60,7 @@ impl Machine {
             .collect()
     }
 
-    /// Names and values of what runs without an adapter.
+    /// Names and values for programs that run without an adapter.
     pub fn processor() -> Vec<(String, String)> {
         processor(env!("CARGO_PKG_VERSION"), this_cpu(), cores()).into()
     }

@@ -1,7 +1,7 @@
-//! How a frame is timed, and what was found out about the machine that drew it.
+//! Timing of frames, and facts about the machine.
 //!
-//! Times are those of a [`frame`], until the device has finished it, [in turns](in_turns) with what they are compared
-//! with, once all has [settled](settle).
+//! Times are those of a [`frame`], until the device has finished it, [in turns](in_turns) with the reference, once all
+//! Apps have [settled](settle).
 
 mod machine;
 
@@ -13,28 +13,28 @@ use serde::Serialize;
 
 pub use machine::Machine;
 
-/// What the time of a [`frame`] is.
+/// The definition of the time of a [`frame`].
 pub const FRAME_TIME: &str = "A frame is App::update, which moves everything, prepares, encodes and submits the draws, \
                               and the wait until the device, if one draws, has finished them; start-up and reading the \
                               picture back are not in it.";
 
 /// The frames that a turn of [`in_turns`] times.
 const TIMED: usize = 2;
-/// The frames after which [`settle`] takes a scene as it is.
+/// The most frames that [`settle`] waits for.
 const MOST: u32 = 20;
 
-/// How everything in a scene is shaded.
+/// The shading of everything in a timed scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TimedLook {
-    /// In the colour of its material alone: what drawing costs without lighting.
+pub enum TimedShading {
+    /// In the colour of its material alone: the cost of drawing without lighting.
     Constant,
     /// Lit.
     Shaded(Shading),
 }
 
-impl TimedLook {
-    /// A material of this ambient and diffuse color with a white highlight of shininess 32; without a light to show for
-    /// it where the look is constant.
+impl TimedShading {
+    /// A material of this ambient and diffuse color with a white highlight of shininess 32; unlit if the look is
+    /// constant.
     pub fn material(self, color: LinearRgba) -> Material {
         let lit = Material { specular: LinearRgba::WHITE, shininess: 32.0, ..Material::matte(color) };
         match self {
@@ -43,7 +43,7 @@ impl TimedLook {
         }
     }
 
-    /// The shading of objects; of no consequence where the look is constant.
+    /// The shading of objects; ignored if the look is constant.
     pub fn shading(self) -> Shading {
         match self {
             Self::Constant => Shading::default(),
@@ -55,7 +55,7 @@ impl TimedLook {
 /// One frame, until the device has finished it.
 ///
 /// # Errors
-/// The first thing that the frame could not do, or why the device did not finish.
+/// The first error of the frame, or of the device.
 pub fn frame(app: &mut App) -> Result<(), RenderError> {
     app.update();
     let world = app.world();
@@ -65,11 +65,12 @@ pub fn frame(app: &mut App) -> Result<(), RenderError> {
     Adapter::of(world).ok_or(RenderError::NoAdapter)?.finish()
 }
 
-/// Runs frames until three in a row are alike, since the first ones build pipelines and upload meshes: as many pipelines
-/// are there after each, and each uploads as many bytes. Stops after 20 frames of a scene whose frames go on to differ.
+/// Runs frames until three in a row are alike, since the first ones build pipelines and upload meshes: the number of
+/// pipelines is the same after each, and each uploads as many bytes. Stops after 20 frames of a scene that keeps
+/// changing.
 ///
 /// # Errors
-/// What [`frame`] says.
+/// See [`frame`].
 pub fn settle(app: &mut App) -> Result<(), RenderError> {
     let mut last = None;
     let mut alike = 0;
@@ -88,20 +89,20 @@ pub fn settle(app: &mut App) -> Result<(), RenderError> {
 
 /// The times of frames in milliseconds, a list for each App, two frames a round.
 ///
-/// All take turns within a round, so that what else the machine does meets all alike, and the i-th times belong
-/// together. Each round begins with another App, so that none always comes after the same one. The first frame of each
-/// turn is not timed: it warms the caches that the others have cooled. [`settle`] the Apps first.
+/// All take turns within a round, so that disturbances of the machine affect all alike, and the i-th times belong
+/// together. Each round begins with another App, so that none always follows the same one. The first frame of each turn
+/// is not timed: it warms the caches that the others have cooled. [`settle`] the Apps first.
 ///
 /// # Errors
-/// What [`frame`] says.
+/// See [`frame`].
 pub fn in_turns(apps: &mut [&mut App], rounds: u32) -> Result<Vec<Vec<f64>>, RenderError> {
     in_turns_with(apps, rounds, |_, _| ())
 }
 
-/// The same, with `note` told of each App, by its place, after each of its timed frames.
+/// [`in_turns`], with `note` called for each App, by its index, after each of its timed frames.
 ///
 /// # Errors
-/// What [`frame`] says.
+/// See [`frame`].
 pub fn in_turns_with(
     apps: &mut [&mut App],
     rounds: u32,
@@ -123,29 +124,29 @@ pub fn in_turns_with(
     Ok(times)
 }
 
-/// Whose turn it is, in this round of N Apps.
+/// The order of N Apps in this round.
 fn order(round: usize, apps: usize) -> impl Iterator<Item = usize> {
     (0..apps).map(move |i| (i + round) % apps)
 }
 
-/// The middle value; the upper of two, 0 of none.
+/// The median; the upper of two middle values, 0 of none.
 pub fn median(values: &[f64]) -> f64 {
-    Spread::of(values).median
+    Spread::from_values(values).median
 }
 
-/// The median over the rounds of a time as a multiple of another one of the same round: what slows the machine down for
-/// a while slows both. 0 for none.
+/// The median over the rounds of the ratio of two times of the same round, which temporary slowdowns of the machine do
+/// not change. 0 for none.
 pub fn median_ratio(times: &[f64], to: &[f64]) -> f64 {
     ratios(times, to).median
 }
 
-/// How the ratios of [`median_ratio`] lie.
+/// The distribution of the ratios of [`median_ratio`].
 pub fn ratios(times: &[f64], to: &[f64]) -> Spread {
-    Spread::of(&times.iter().zip(to).map(|(time, to)| time / to).collect::<Vec<_>>())
+    Spread::from_values(&times.iter().zip(to).map(|(time, to)| time / to).collect::<Vec<_>>())
 }
 
-/// How values lie, in their unit; all 0 of none. Of two middle values the upper one is the median, and so with the
-/// quartiles.
+/// The distribution of values, in their unit; all 0 of none. Of two middle values the upper one is the median; likewise
+/// for the quartiles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
     /// The least.
@@ -158,13 +159,13 @@ pub struct Spread {
     pub upper_quartile: f64,
     /// The largest.
     pub max: f64,
-    /// How many there are.
+    /// The number of values.
     pub count: usize,
 }
 
 impl Spread {
-    /// Of these values, in any order.
-    pub fn of(values: &[f64]) -> Self {
+    /// From values in any order.
+    pub fn from_values(values: &[f64]) -> Self {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
         let count = sorted.len();
@@ -186,11 +187,11 @@ mod tests {
 
     #[test]
     fn spreads_of_few_values() {
-        let spread = Spread::of(&[5.0, 1.0, 4.0, 2.0, 3.0]);
+        let spread = Spread::from_values(&[5.0, 1.0, 4.0, 2.0, 3.0]);
         let expected = Spread { min: 1.0, lower_quartile: 2.0, median: 3.0, upper_quartile: 4.0, max: 5.0, count: 5 };
         assert_eq!(spread, expected);
         assert_eq!(median(&[4.0, 1.0, 3.0, 2.0]).to_bits(), 3f64.to_bits(), "the upper of two");
-        assert_eq!(Spread::of(&[]), Spread::default());
+        assert_eq!(Spread::from_values(&[]), Spread::default());
     }
 
     #[test]

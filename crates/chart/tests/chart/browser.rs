@@ -6,12 +6,12 @@ use std::process::{Command, Stdio};
 
 use crate::report::{file, report};
 
-/// A folder that is removed in the end.
+/// A temporary folder, removed at the end.
 struct Folder(PathBuf);
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // What cannot be removed is left to the system.
+        // If it cannot be removed, the system will.
         let _ = fs::remove_dir_all(&self.0);
     }
 }
@@ -44,7 +44,7 @@ fn opened(page: &str, script: &str) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// What a script found out on a page, as it wrote it.
+/// The result of a script on a page, as it wrote it.
 fn found(page: &str, script: &str) -> serde_json::Value {
     let script = format!("const facts = {{}}; {script} document.body.dataset.facts = JSON.stringify(facts);");
     let dom = opened(file(page), &script);
@@ -115,7 +115,7 @@ fn series_are_hidden_charts_chosen_and_tables_sorted() {
     assert_eq!(facts, expected);
 }
 
-/// What a screen reader says of a control or a link tells it from every other.
+/// Every control and link has a distinct name for screen readers.
 #[test]
 fn every_control_and_link_of_a_failure_has_a_name_of_its_own() {
     let names = "const text = (element) => element.textContent.trim();

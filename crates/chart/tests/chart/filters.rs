@@ -1,4 +1,4 @@
-//! The filters' charts, at a size that takes seconds: what must hold whatever the machine.
+//! The filters' charts, at a size that takes seconds: properties that hold on every machine.
 
 use std::sync::OnceLock;
 
@@ -34,7 +34,7 @@ fn summed_areas_are_exact_where_the_footprint_is_upright() {
 }
 
 #[test]
-fn who_knows_the_footprints_shape_errs_less_toward_the_horizon() {
+fn filters_by_shape_err_less_toward_the_horizon() {
     for image in &found().images {
         for view in [6, 7] {
             let [none, linear, probes, ellipse] =

@@ -1,4 +1,4 @@
-//! The smallest report, and the files that tell it.
+//! The smallest report, and its files.
 
 use std::collections::HashMap;
 use std::sync::OnceLock;
@@ -85,7 +85,7 @@ fn every_point_is_measured_and_finite() {
 
 /// Both from the finer of two details: a mesh of 256 meridians.
 #[test]
-fn errors_are_of_the_method_and_not_of_the_truth() {
+fn errors_are_those_of_the_method() {
     let fine = |method: Method| {
         let found = points("sphere").iter().rfind(|point| point.method == method.id());
         found.expect("the method was measured").errors

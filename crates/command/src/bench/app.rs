@@ -1,7 +1,7 @@
-//! A benchmark scene as an App that is ready to run.
+//! A benchmark scene as an App, ready to run.
 
 use halfway::prelude::*;
-use halfway_chart::timing::TimedLook;
+use halfway_chart::timing::TimedShading;
 
 use super::args::{BenchArgs, BenchShading};
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use crate::input::SceneInput;
 use crate::scenery::{Benchmark, BenchmarkScene};
 use crate::turntable::Turntable;
 
-/// What is drawn: a scene of ours, or one that is read.
+/// The timed scene: one of ours, or one from a file.
 pub(super) enum Timed {
     Made(BenchmarkScene),
     Read(Box<SceneInput>),
@@ -23,7 +23,7 @@ impl Timed {
         }
     }
 
-    /// Of its picture in pixels.
+    /// The size of its picture in pixels.
     pub(super) fn size(&self, args: &BenchArgs) -> UVec2 {
         let own = match self {
             Self::Made(scene) => scene.size(),
@@ -43,25 +43,25 @@ impl Timed {
             }
             Self::Read(input) => {
                 let camera = input.spawn(&mut app)?.camera;
-                // So that no frame is the one before.
+                // So that no two frames are the same.
                 Turntable::turn(&mut app, camera, 1.0_f32.to_radians());
                 shade(app.world_mut(), look);
             }
         }
-        // Whatever the scene says.
+        // Overrides the scene's.
         app.insert_resource(ViewTolerance(mode.tolerance(args.tolerance.or(Tolerance::EXACT))));
         finish(&mut app);
         Ok(app)
     }
 }
 
-/// Gives every object this look, whatever it had.
-fn shade(world: &mut World, look: TimedLook) {
+/// Gives every object this look in place of its own.
+fn shade(world: &mut World, look: TimedShading) {
     let objects: Vec<Entity> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
     for object in objects {
         let mut object = world.entity_mut(object);
         object.insert(look.shading());
-        if look == TimedLook::Constant {
+        if look == TimedShading::Constant {
             if let Some(mut material) = object.get_mut::<Material>() {
                 *material = unlit(&material);
             }
@@ -77,7 +77,7 @@ fn unlit(material: &Material) -> Material {
     Material { opacity: material.opacity, ..Material::emissive(material.diffuse) }
 }
 
-/// Runs what the plugins left to the end of their building.
+/// Runs the parts of building that the plugins left to the end.
 pub(super) fn finish(app: &mut App) {
     app.finish();
     app.cleanup();

@@ -1,21 +1,21 @@
-//! What `halfway bench` can be asked.
+//! The options of `halfway bench`.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use halfway::prelude::*;
-use halfway_chart::timing::TimedLook;
+use halfway_chart::timing::TimedShading;
 
 use crate::adapters::AdapterArgs;
+use crate::drawing::SizeArgs;
 use crate::failure::Failure;
-use crate::look::SizeArgs;
 use crate::scenery::BenchmarkScene;
 use crate::tolerance::ToleranceArgs;
 
 #[derive(Args, Debug)]
 pub(crate) struct BenchArgs {
-    /// What is timed: a scene file or a model, its camera turning by 1° a frame; or one of these
+    /// The subject: a scene file or a model, its camera turning by 1° a frame; or one of these
     ///
     /// s1: one sphere of 261,120 triangles, 4 lights, 1280 × 720;
     /// s1x16: the same under 16 lights;
@@ -24,8 +24,8 @@ pub(crate) struct BenchArgs {
     /// s4: one sphere of 3,968 triangles, 1 light, 256 × 256;
     /// s5: 60 objects of five kinds, 2,393,700 triangles, 6 lights, 1280 × 720;
     /// s6: one scan of 1,000,000 triangles with noise, 3 lights, 1280 × 720;
-    /// features: what each feature of lighting costs once a vertex and once a pixel, beside one directional light;
-    /// lights: what a light costs the CPU for each patch that it touches, and one of 20,000 that touches nothing
+    /// features: the cost of each feature of lighting once a vertex and once a pixel, beside one directional light;
+    /// lights: the CPU's cost of a light for each patch that it touches, and of one of 20,000 that touches nothing
     #[arg(value_name = "s1|s1x16|s2|s3|s4|s5|s6|features|lights|SCENE|MODEL", verbatim_doc_comment)]
     pub(super) subject: OsString,
     #[command(flatten)]
@@ -46,13 +46,13 @@ pub(crate) struct BenchArgs {
     /// Print JSON instead of a table: all figures
     #[arg(long)]
     pub(super) json: bool,
-    /// Draw one frame of one shading and print when it was finished and the peak memory: what the table's last
-    /// columns run in a process of their own
+    /// Draw one frame of one shading and print when it was finished and the peak memory, for the table's last columns,
+    /// each from a process of its own
     #[arg(long, value_enum, hide = true)]
     pub(super) once: Option<BenchShading>,
 }
 
-/// What is timed.
+/// The subject of a benchmark.
 pub(super) enum Subject {
     Scene(BenchmarkScene),
     Features,
@@ -73,7 +73,7 @@ impl BenchArgs {
         }
     }
 
-    /// Refuses the options that are about a scene.
+    /// Refuses the options that apply to scenes only.
     pub(super) fn expect_no_scene(&self, subject: &str) -> Result<(), Failure> {
         let about_scenes = self.size.size.is_some() || self.octahedra || self.tolerance.given().is_some();
         if about_scenes || self.cold || self.once.is_some() {
@@ -90,8 +90,8 @@ pub(crate) enum BenchShading {
     Flat,
     Gouraud,
     Phong,
-    /// Phong with all lights on the full mesh, whatever the tolerance: what is left out adds nothing. The other rows
-    /// are beside it what the tolerance saves.
+    /// Phong with all lights on the full mesh, whatever the tolerance. The other rows show the saving of the tolerance
+    /// relative to it.
     ExactPhong,
 }
 
@@ -100,17 +100,17 @@ impl BenchShading {
         self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
 
-    /// Within which tolerance it is drawn, where `said` is that of the command line.
+    /// The tolerance of its pictures, where `said` is that of the command line.
     pub(super) fn tolerance(self, said: Tolerance) -> Tolerance {
         if self == Self::ExactPhong { Tolerance::EXACT } else { said }
     }
 
-    pub(super) fn look(self) -> TimedLook {
+    pub(super) fn look(self) -> TimedShading {
         match self {
-            Self::Constant => TimedLook::Constant,
-            Self::Flat => TimedLook::Shaded(Shading::Flat),
-            Self::Gouraud => TimedLook::Shaded(Shading::Gouraud),
-            Self::Phong | Self::ExactPhong => TimedLook::Shaded(Shading::Phong),
+            Self::Constant => TimedShading::Constant,
+            Self::Flat => TimedShading::Shaded(Shading::Flat),
+            Self::Gouraud => TimedShading::Shaded(Shading::Gouraud),
+            Self::Phong | Self::ExactPhong => TimedShading::Shaded(Shading::Phong),
         }
     }
 }

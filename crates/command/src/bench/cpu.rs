@@ -1,4 +1,4 @@
-//! What the CPU takes for each set of a frame.
+//! CPU times of each set of a frame.
 
 use std::time::Duration;
 
@@ -7,15 +7,15 @@ use halfway::render::{FrameTimes, RenderError, SetTimes};
 use halfway_chart::timing::{in_turns_with, median, settle};
 use serde_json::{Map, Value, json};
 
-/// Tells readers of [`CpuTimes::own_ms`].
+/// The explanation of [`CpuTimes::own_ms`] for readers.
 pub(super) const OWN_TIME: &str = "Own CPU is the renderer's own part of it, a median, too: every set of a frame but \
                                    Draw, which hands the work to the adapter; a software adapter may draw in there.";
 
-/// The sets' times in each frame that was timed.
+/// The sets' times in each timed frame.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CpuTimes(Vec<SetTimes>);
 
-/// Lets the Apps settle and times them in turns, with what the CPU took in the same frames.
+/// Lets the Apps settle and times them in turns, with the CPU's times in the same frames.
 pub(super) fn timed(apps: &mut [App], rounds: u32) -> Result<Vec<(Vec<f64>, CpuTimes)>, RenderError> {
     apps.iter_mut().try_for_each(settle)?;
     let mut cpu = vec![CpuTimes::default(); apps.len()];
@@ -38,7 +38,7 @@ impl CpuTimes {
         median(&self.own_of_each_ms())
     }
 
-    /// The same, frame by frame.
+    /// The renderer's own part, frame by frame.
     pub(super) fn own_of_each_ms(&self) -> Vec<f64> {
         self.each_ms(|times| times.total().saturating_sub(times.of(RenderSet::Draw)))
     }

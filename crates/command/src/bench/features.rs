@@ -1,4 +1,4 @@
-//! `halfway bench features`: what each feature of lighting costs, once a vertex and once a pixel.
+//! `halfway bench features`: the cost of each feature of lighting, once a vertex and once a pixel.
 
 use halfway::prelude::*;
 use halfway::render::Adapter;
@@ -15,9 +15,9 @@ use crate::scenery::features::{Feature, FeatureScene, FeatureStage};
 /// The cost of one stage under one feature.
 struct Cost {
     frame: Spread,
-    /// To the baseline.
+    /// Relative to the baseline.
     ratio: f64,
-    /// The cost of a light at a vertex or pixel, where that can be said.
+    /// The cost of a light at a vertex or pixel, where it is defined.
     per_light_ns: Option<f64>,
     cpu: CpuTimes,
     report: FrameReport,
@@ -26,7 +26,7 @@ struct Cost {
 pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
     args.expect_no_scene("features")?;
     let features = Feature::all();
-    // One for all, so that two dozen of them need not share the machine.
+    // One adapter for all Apps, so that two dozen of them need not share the machine.
     let adapter = args.adapter.choice().open()?;
     let stages = [FeatureStage::vertex(), FeatureStage::fragment()];
     let [vertex, fragment] = stages.each_ref().map(|stage| measure(&features, stage, &adapter, args.rounds));
@@ -51,10 +51,10 @@ fn measure(features: &[Feature], stage: &FeatureStage, adapter: &Adapter, rounds
     let costs = features.iter().zip(&apps).zip(times.iter().zip(cpu)).map(|((feature, app), (own, cpu))| {
         let evaluations = f64::from(feature.lights.count()) * f64::from(stage.evaluations);
         let unlit = unlit.filter(|_| feature.is_about_lights());
-        // Within a round, as ratios are.
+        // Differences within a round, as for ratios.
         let more = unlit.map(|unlit| own.iter().zip(&times[unlit]).map(|(a, b)| a - b).collect::<Vec<_>>());
         Cost {
-            frame: Spread::of(own),
+            frame: Spread::from_values(own),
             ratio: median_ratio(own, &times[baseline]),
             per_light_ns: more.map(|more| median(&more) * 1e6 / evaluations),
             cpu,

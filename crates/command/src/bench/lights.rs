@@ -1,4 +1,4 @@
-//! `halfway bench lights`: what a light costs the CPU for each patch that it touches, and what one that touches
+//! `halfway bench lights`: the CPU's cost of a light for each patch that it touches, and of a light that touches
 //! nothing.
 
 use halfway::prelude::*;
@@ -12,7 +12,8 @@ use super::facts::{counters, print_facts};
 use crate::failure::Failure;
 use crate::scenery::many_lights::{ManyLights, SIZE};
 
-/// Nine, so that they are not compiled in, of which none touches anything; some that touch everything; and many apart.
+/// Nine lights, so that they are not compiled in, none of which touches anything; some that touch everything; and many
+/// apart.
 const ROWS: [ManyLights; 3] = [
     ManyLights { touching: 0, apart: 9 },
     ManyLights { touching: 12, apart: 0 },
@@ -34,7 +35,7 @@ pub(super) fn run(args: &BenchArgs) -> Result<(), Failure> {
     let reports = apps.each_ref().map(|app| app.world().resource::<FrameReport>().clone());
     let [_, few, many] = &reports;
     let patches = f64::from(few.patches - few.patches_culled);
-    // Within a round, as ratios are.
+    // Differences within a round, as for ratios.
     let more = |a: usize, b: usize| median(&own[a].iter().zip(&own[b]).map(|(a, b)| a - b).collect::<Vec<_>>()) * 1e6;
     let per_pair = more(1, 0) / (patches * f64::from(few.lights));
     let per_light = more(2, 1) / f64::from(many.lights - few.lights);

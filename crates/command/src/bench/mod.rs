@@ -1,5 +1,5 @@
-//! `halfway bench`: benchmark scenes, each shading beside a constant colour in the same run; and what features and
-//! lights cost.
+//! `halfway bench`: benchmark scenes, each shading relative to a constant colour in the same run; and the cost of
+//! features and lights.
 
 mod app;
 mod args;

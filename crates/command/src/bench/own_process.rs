@@ -1,5 +1,4 @@
-//! Two figures that only a process of its own can tell: the time from its start to the first finished frame, and its
-//! memory.
+//! Two figures that need a process of their own: the time from its start to the first finished frame, and its memory.
 
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -10,16 +9,16 @@ use super::app::Timed;
 use super::args::{BenchArgs, BenchShading};
 use crate::failure::Failure;
 
-/// How a process got to its first frame.
+/// The first frame of a process.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FirstFrame {
     /// From the start of the process until the device had finished the frame.
     pub(super) ms: f64,
-    /// The largest resident set until then; 0 where the system does not tell.
+    /// The largest resident set until then; 0 where the system does not report it.
     pub(super) peak_mb: f64,
 }
 
-/// How many processes are run; the one in the middle by time counts.
+/// The number of processes; the median by time counts.
 const PROCESSES: usize = 3;
 
 /// In the process: draws the frame, and prints when it was finished and the memory.
@@ -32,7 +31,7 @@ pub(super) fn once(args: &BenchArgs, timed: &Timed, mode: BenchShading) -> Resul
     Ok(())
 }
 
-/// From outside: the first frame with the shaders that the driver has kept on disk, or `cold`, without.
+/// From outside: the first frame with the driver's shader cache on disk, or `cold`, without.
 pub(super) fn first_frame(mode: BenchShading, cold: bool) -> Result<FirstFrame, Failure> {
     let failed = |error: std::io::Error| Failure::new(1, error);
     let program = std::env::current_exe().map_err(failed)?;
@@ -51,12 +50,12 @@ pub(super) fn first_frame(mode: BenchShading, cold: bool) -> Result<FirstFrame, 
     Ok(measured[PROCESSES / 2])
 }
 
-/// This process's own command line, for a single frame.
+/// The command line of a process for a single frame.
 fn command(program: &std::path::Path, mode: BenchShading, cold: bool) -> Command {
     let mut command = Command::new(program);
     command.args(["bench", "--once", &mode.name()]).args(std::env::args_os().skip(2));
     if cold {
-        // Mesa's drivers compile anew then; others keep no such files, or do not let them be left aside.
+        // Mesa's drivers then compile anew; others keep no such cache, or cannot disable it.
         command.env("MESA_SHADER_CACHE_DISABLE", "true");
     }
     command
@@ -67,7 +66,7 @@ fn now_ms() -> f64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64() * 1e3)
 }
 
-/// The largest resident set so far in KiB; 0 where the system does not tell.
+/// The largest resident set so far in KiB; 0 where the system does not report it.
 fn peak_kb() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

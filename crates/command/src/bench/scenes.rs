@@ -38,7 +38,7 @@ pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
     for ((&mode, report), (own, cpu)) in modes.iter().zip(reports).zip(&times) {
         rows.push(Row {
             mode,
-            frame: Spread::of(own),
+            frame: Spread::from_values(own),
             to_constant: median_ratio(own, &times[0].0),
             to_exact: median_ratio(own, &times[BenchShading::ExactPhong as usize].0),
             cpu: cpu.clone(),

@@ -1,15 +1,15 @@
-//! The cost of each feature of lighting: one neutral scene, in which one thing at a time is different.
+//! The cost of each feature of lighting: one neutral scene, with one difference at a time.
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, TAU};
 
 use halfway::prelude::*;
 
-/// Where the lighting is evaluated, and on what.
+/// The frequency of lighting, and the surface.
 #[derive(Clone, Debug)]
 pub(crate) struct FeatureStage {
     /// The size of the picture in pixels.
     pub(crate) size: UVec2,
-    /// How often a light is evaluated in a frame: once a vertex, or once a pixel.
+    /// The number of evaluations of a light in a frame: once a vertex, or once a pixel.
     pub(crate) evaluations: u32,
     mesh: Mesh,
     place: Transform,
@@ -71,8 +71,8 @@ impl FeatureLights {
     }
 }
 
-/// The neutral scene with something different, as a plugin; [`Feature::BASELINE`] is as it is, and [`Feature::all`]
-/// are those worth comparing.
+/// The neutral scene with a difference, as a plugin; [`Feature::BASELINE`] has none, and [`Feature::all`] are those
+/// worth comparing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Feature {
     /// The difference in words.
@@ -80,12 +80,12 @@ pub(crate) struct Feature {
     /// The lights, all in front of the surface.
     pub(crate) lights: FeatureLights,
     pub(crate) material: Material,
-    /// Of the back, where it is another.
+    /// The material of the back, if it differs.
     pub(crate) back: Option<Material>,
     pub(crate) reflectance: Reflectance,
     pub(crate) viewer: Viewer,
     pub(crate) faces: Faces,
-    /// Whether the surface is blended, half covering.
+    /// Whether the surface is blended, at half opacity.
     pub(crate) blend: bool,
     pub(crate) samples: Samples,
     pub(crate) encoding: Encoding,
@@ -151,7 +151,7 @@ impl Feature {
         ]
     }
 
-    /// Whether all that it costs more than no lights is the cost of its lights, all else being as in the baseline.
+    /// Whether all of its cost beyond no lights is that of its lights, all else being as in the baseline.
     pub(crate) fn is_about_lights(&self) -> bool {
         let it = Self::BASELINE;
         self.lights.count() > 0
@@ -159,7 +159,7 @@ impl Feature {
     }
 }
 
-/// A [`Feature`] where a [`FeatureStage`] shows what it costs, as a plugin. Nothing moves.
+/// A [`Feature`] in a [`FeatureStage`] that shows its cost, as a plugin. Nothing moves.
 #[derive(Clone, Debug)]
 pub(crate) struct FeatureScene {
     pub(crate) feature: Feature,
@@ -200,7 +200,7 @@ impl FeatureScene {
 }
 
 impl Feature {
-    /// The `i`-th light, on a circle between the camera and the surface, so that all light most of what is seen.
+    /// The `i`-th light, on a circle between the camera and the surface, so that all light most of the visible part.
     fn light(&self, commands: &mut Commands, i: u32) {
         let (sin, cos) = (TAU * i as f32 / self.lights.count() as f32).sin_cos();
         let at = Transform::from_xyz(1.2 * cos, 1.2 * sin, 2.5).looking_at(Vec3::ZERO, Vec3::Y);

@@ -1,4 +1,4 @@
-//! S5 and S6: meshes like those that people have, with odd counts, holes, creases, thin walls and noise.
+//! S5 and S6: realistic meshes, with odd counts, holes, creases, thin walls and noise.
 //!
 //! Objects of S5 stand on a grid of 10 × 6, 3 apart; object i is of kind i mod 5 and turned about +Y by 0.7·i.
 //!
@@ -21,7 +21,7 @@ use halfway_chart::front::scenes::{sound, stone_mesh};
 
 use super::{Circling, Scenery, Turning, grey, hsv};
 
-/// How far objects are apart.
+/// The distance between objects.
 const STEP: f32 = 3.0;
 
 impl Scenery<'_, '_, '_> {
@@ -67,7 +67,7 @@ impl Scenery<'_, '_, '_> {
     }
 }
 
-/// Turned on a lathe: cylinders and rings that meet in sharp edges.
+/// A lathed part: cylinders and rings that meet in sharp edges.
 fn machine_part() -> Mesh {
     let profile = [
         [0.0, -0.6],
@@ -131,7 +131,7 @@ fn vase() -> Mesh {
     turned(&profile.collect::<Vec<_>>(), 128)
 }
 
-/// A profile of (radius, height) turned about +Y, with creases of more than 30°. Seen from outside where the profile
+/// A profile of (radius, height) revolved about +Y, with creases of more than 30°. It faces outward where the profile
 /// goes up.
 fn turned(profile: &[[f32; 2]], around: u32) -> Mesh {
     let positions = profile.iter().flat_map(|&[radius, y]| {
@@ -145,7 +145,7 @@ fn turned(profile: &[[f32; 2]], around: u32) -> Mesh {
         for i in 0..around {
             let [a, b] = [i, (i + 1) % around].map(|i| row * around + i);
             let [c, d] = [a + around, b + around];
-            // At the axis one of the two has no area.
+            // At the axis one of the two triangles has no area.
             if pair[0][0] > 0.0 {
                 indices.extend([a, b, d]);
             }

@@ -14,7 +14,7 @@ pub(crate) struct ManyLights {
     pub(crate) apart: u32,
 }
 
-/// The size of its picture in pixels: hardly anything but what comes before them.
+/// The size of its picture in pixels: small, so that work before the pixels dominates.
 pub(crate) const SIZE: UVec2 = UVec2::splat(32);
 
 /// Along each side of the floor.
@@ -39,7 +39,7 @@ impl Plugin for ManyLights {
             })
             .add_systems(Update, |mut cameras: Query<&mut Transform, With<Moving>>| {
                 for mut at in &mut cameras {
-                    // There and back, so that no frame is the one before.
+                    // Back and forth, so that no two frames are the same.
                     at.translation.x = if at.translation.x > 0.0 { -0.01 } else { 0.01 };
                 }
             });

@@ -4,7 +4,7 @@
 //! equal to its diffuse one; the background is (0.01, 0.012, 0.02); the camera has a vertical field of view of 45° and
 //! looks at the origin.
 //!
-//! | | what stands | lights besides ambient | camera | pixels |
+//! | | objects | lights besides ambient | camera | pixels |
 //! |---|---|---|---|---|
 //! | S1 | one sphere, 512 × 256 | directional 0.6 from (1, 1, 1), three tinted points of 0.5 | (0, 0, 3) | 1280 × 720 |
 //! | S1×16 | the same | each of them four times, turned about +Y by 0°, 90°, 180° and 270°, at a quarter of its intensity | (0, 0, 3) | 1280 × 720 |
@@ -26,7 +26,7 @@ use clap::ValueEnum;
 use halfway::prelude::*;
 use halfway_chart::front::Still;
 use halfway_chart::front::scenes::random;
-use halfway_chart::timing::TimedLook;
+use halfway_chart::timing::TimedShading;
 
 /// One of these scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -47,12 +47,12 @@ impl BenchmarkScene {
     }
 }
 
-/// A benchmark scene as a plugin: spawns it at start-up and moves it on by one step a frame, the first frame being 0.
+/// A benchmark scene as a plugin: spawns it at start-up and advances it by one step a frame, the first frame being 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Benchmark {
     pub(crate) scene: BenchmarkScene,
-    pub(crate) look: TimedLook,
-    /// Spheres of S2 as octahedra, which leaves the work on 10,000 entities and takes that on their triangles away.
+    pub(crate) look: TimedShading,
+    /// Spheres of S2 as octahedra, which keeps the work on 10,000 entities and removes that on their triangles.
     pub(crate) octahedra: bool,
 }
 
@@ -116,7 +116,7 @@ fn circle(frame: Res<FrameNumber>, mut lights: Query<(&Circling, &mut Transform)
 struct Scenery<'a, 'w, 's> {
     commands: &'a mut Commands<'w, 's>,
     meshes: &'a mut Assets<Mesh>,
-    look: TimedLook,
+    look: TimedShading,
 }
 
 impl Scenery<'_, '_, '_> {

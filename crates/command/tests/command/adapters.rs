@@ -32,11 +32,11 @@ fn name_of(line: &str) -> String {
     format!("{backend}:{}", name.split(' ').next().unwrap_or_default())
 }
 
-/// What draws with these variables and arguments, by what `verify` says of it.
+/// The renderer chosen by these variables and arguments, from the output of `verify`.
 #[track_caller]
 fn device(folder: &Path, set: &[(&str, &str)], more: &[&str]) -> String {
     let teapot = asset("assets/teapot.obj");
-    // How near it is to the oracle is for other tests to say.
+    // Its accuracy is for other tests to check.
     let verify = ["verify", &teapot, "--size", "16x12", "--json", "--max", "255"];
     let output = run(folder, set, &[&verify[..], more].concat());
     assert!(output.status.success(), "{set:?} {more:?}: {output:?}");
@@ -70,7 +70,7 @@ fn every_adapter_of_the_list_can_be_chosen() {
     assert!(!all.is_empty());
     for line in &all {
         let name = name_of(line).to_uppercase();
-        // How near it is to the oracle is for other tests to say.
+        // Its accuracy is for other tests to check.
         let verify = ["verify", &teapot, "--size", "32x24", "--json", "--max", "255", "--adapter", &name];
         let json: serde_json::Value = serde_json::from_str(&succeeds(&folder, &verify)).expect("JSON");
         assert_eq!(json["device"], **line, "{name}");
@@ -137,10 +137,10 @@ fn wgpu_s_own_variable_chooses_any_driver_of_the_list() {
     }
 }
 
-// What `AdapterChoice` and docs/decisions/0027-which-adapter.md promise.
+// As promised by `AdapterChoice` and docs/decisions/0027-which-adapter.md.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_name_goes_before_named_drivers_and_brings_back_none_that_they_hide() {
+fn a_name_outranks_drivers_but_reveals_no_hidden_ones() {
     let folder = folder("named_drivers");
     let all = listed(&folder, &[]);
     let [vulkan, gl, cpu] = ["vulkan", "gl", "cpu"].map(|backend| line_of(&all, backend));

@@ -1,4 +1,4 @@
-//! What a user may hand to the command, and what has to be in the answer.
+//! Bad input of users, and the required parts of the messages.
 
 use crate::command::{asset, folder, halfway};
 use std::fs;

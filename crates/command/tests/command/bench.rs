@@ -1,10 +1,10 @@
-//! What `bench` times and prints.
+//! The measurements and the output of `bench`.
 
 use crate::command::{asset, folder, halfway, succeeds};
 use std::fs;
 use std::path::Path;
 
-/// What `halfway` prints as JSON.
+/// The JSON that `halfway` prints.
 fn json_of(folder: &Path, arguments: &[&str]) -> serde_json::Value {
     let value: serde_json::Value = serde_json::from_str(&succeeds(folder, arguments)).expect("JSON");
     for name in ["adapter", "backend", "driver", "driver_version", "halfway", "cpu"] {

@@ -1,4 +1,4 @@
-//! What `chart` measures and writes.
+//! The measurements and the files of `chart`.
 
 use std::fs;
 use std::path::Path;
@@ -21,7 +21,7 @@ fn a_model_is_charted_and_what_to_choose_is_said() {
     assert_eq!(points.len(), 21);
     assert!(points.iter().all(|point| point["adapter"] == "cpu" && point["scene"] == model.as_str()));
     assert!(points.iter().any(|point| point["front"] == true));
-    // The model itself, under Phong shading, is what errors are errors from.
+    // The errors are relative to the model itself under Phong shading.
     let exact = points.iter().find(|point| point["method"] == "phong" && point["detail"] == "full");
     let exact = exact.expect("the model as it is");
     assert!(exact["covered"]["steps"]["p95"].as_f64().is_some_and(|steps| steps <= 1.0), "{exact}");
@@ -51,7 +51,7 @@ fn one_point_is_measured_again_by_its_command() {
 }
 
 #[test]
-fn what_cannot_be_charted_is_refused_before_anything_is_measured() {
+fn invalid_subjects_are_refused_before_measuring() {
     let folder = folder("chart_refused");
     let rows = [
         (&["chart", "no_such_scene"][..], "no_such_scene"),

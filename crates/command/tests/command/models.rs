@@ -1,4 +1,4 @@
-//! What `convert` and `info` make of models.
+//! The results of `convert` and `info`.
 
 use crate::command::{asset, folder, halfway, succeeds};
 use std::fs;
@@ -35,7 +35,7 @@ fn convert_changes_formats_and_says_what_is_lost() {
     assert!(!folder.join("teapot.obj").exists() && !folder.join("teapot.stl").exists());
 }
 
-/// What a line of what was said begins with, and the numbers in it.
+/// The line that begins with this step, and the numbers in it.
 #[track_caller]
 fn numbers(said: &str, step: &str) -> Vec<f64> {
     let line = said.lines().find(|line| line.starts_with(step)).unwrap_or_else(|| panic!("no {step} in:\n{said}"));

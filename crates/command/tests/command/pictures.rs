@@ -1,4 +1,4 @@
-//! What `render` draws and writes, and what the command says of itself.
+//! The pictures of `render`, and the command's messages about itself.
 
 use crate::command::{asset, folder, halfway, succeeds};
 use std::fs;
@@ -68,7 +68,7 @@ fn frames_become_an_animation_or_a_file_each() {
     assert!(!folder.join("frame-0009.png").exists() && !folder.join("frame-0012.png").exists());
 }
 
-// What docs/many-machines.md promises.
+// As promised by docs/many-machines.md.
 #[test]
 fn two_processes_draw_the_bytes_of_one() {
     let folder = folder("processes");

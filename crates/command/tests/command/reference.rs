@@ -1,4 +1,4 @@
-//! The reference renderer, and what is judged by it.
+//! The reference renderer, and its judgement of pictures.
 
 use crate::command::{asset, folder, halfway, succeeds};
 use std::fs;
@@ -20,7 +20,7 @@ fn the_reference_renderer_draws_only_where_it_is_asked_to() {
             .output()
             .expect("the command was built with this test")
     };
-    // What is asked for is not there.
+    // The adapter asked for does not exist.
     for arguments in [&["render", &teapot, "-o", "a.png"][..], &["adapters"], &["verify", &teapot]] {
         let output = without_adapter(arguments);
         assert_eq!(output.status.code(), Some(3), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
@@ -148,7 +148,7 @@ fn a_given_picture_is_judged_without_an_adapter() {
 }
 
 #[test]
-fn what_is_compared_is_said_and_shown() {
+fn comparisons_are_printed_and_drawn() {
     let folder = folder("compare");
     let grey = |name: &str, changed: [u8; 3]| {
         let mut picture = image::RgbImage::from_pixel(8, 6, image::Rgb([16; 3]));

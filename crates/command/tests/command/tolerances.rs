@@ -1,4 +1,4 @@
-//! What is drawn within a tolerance keeps to it, where it once did not. `halfway-wild --steps` tries other scenes.
+//! Scenes that once exceeded their tolerance no longer do. `halfway-wild --steps` tries other scenes.
 
 use crate::command::{folder, halfway};
 use std::fs;
@@ -11,7 +11,7 @@ fn row_of_lights(from: [f64; 3], length: f64, keys: &str) -> String {
 }
 
 #[test]
-fn scenes_that_once_did_not_keep_to_their_tolerance_do() {
+fn scenes_that_exceeded_their_tolerance_are_fixed() {
     let sphere = |radius: &str, more: &str| {
         format!(
             r#""objects": [{{"mesh": {{"uv_sphere": {{"radius": {radius}, "segments": 96, "rings": 48}}}}{more}}}]"#

@@ -1,4 +1,4 @@
-//! What a window is drawn with is taken away: the device, the surface, the window and the display.
+//! Losses of the window's resources: the device, the surface, the window and the display.
 
 use std::io::{Read, Write};
 use std::process::{Command, Stdio};
@@ -17,7 +17,7 @@ fn tell(viewer: &Viewer, line: &str) {
     writeln!(viewer.process.stdin.as_ref().expect("it is piped"), "{line}").expect("the program reads");
 }
 
-/// Waits until the program has ended, and gives its exit code and what it said, which is no panic's.
+/// Waits until the program has ended, and returns its exit code and its output, which must not be a panic's.
 fn last_words(viewer: &mut Viewer) -> (Option<i32>, String) {
     let code = viewer.end().code();
     let mut said = String::new();

@@ -1,4 +1,4 @@
-//! The tests' hands and eyes: an X display, a program with a window on it, and what the window shows.
+//! Tools of the tests: an X display, a program with a window on it, and the contents of the window.
 
 use std::cell::RefCell;
 use std::io::{BufRead, BufReader};
@@ -70,7 +70,7 @@ pub(crate) fn same_framing(a: &Picture, b: &Picture) -> bool {
     a_edges.iter().zip(b_edges).all(|(a, b)| (a - b).abs() <= tolerance)
 }
 
-/// What a window shows.
+/// The contents of a window.
 #[derive(PartialEq)]
 pub(crate) struct Picture {
     pub(crate) width: u16,
@@ -88,7 +88,7 @@ impl Picture {
         self.bytes.chunks_exact(4).collect::<std::collections::HashSet<_>>().len()
     }
 
-    /// Left, top, right and bottom of what is not background, from the middle, in heights; none where nothing is.
+    /// Left, top, right and bottom of the non-background pixels, from the middle, in heights; `None` if there are none.
     pub(crate) fn edges(&self) -> Option<[f64; 4]> {
         let background = self.bytes.get(..4)?;
         let width = usize::from(self.width);
@@ -118,12 +118,12 @@ pub(crate) struct Screen {
 impl Screen {
     pub(crate) fn open() -> Self {
         let given = std::env::var("DISPLAY").ok().filter(|name| !name.is_empty());
-        Self::of(|| given.map_or_else(Self::start, |name| (name, None)))
+        Self::from_server(|| given.map_or_else(Self::start, |name| (name, None)))
     }
 
     /// One that may be ended, whatever display is given.
     pub(crate) fn open_own() -> Self {
-        Self::of(Self::start)
+        Self::from_server(Self::start)
     }
 
     /// Ends the display, if it is the test's own, under whatever is on it.
@@ -135,7 +135,7 @@ impl Screen {
         }
     }
 
-    fn of(server: impl FnOnce() -> (String, Option<Child>)) -> Self {
+    fn from_server(server: impl FnOnce() -> (String, Option<Child>)) -> Self {
         let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let (name, server) = server();
         let (connection, number) = Self::connect(&name);
@@ -195,7 +195,7 @@ impl Screen {
         None
     }
 
-    /// What a window shows. `None` while it is not all on the screen, or its size changes at this moment.
+    /// The contents of a window. `None` while it is not all on the screen, or its size changes at this moment.
     pub(crate) fn picture_of(&self, window: Window) -> Option<Picture> {
         const COLOUR: u32 = 0x00ff_ffff;
         let size = self.connection.get_geometry(window).ok()?.reply().ok()?;
@@ -415,7 +415,7 @@ impl<'a> Viewer<'a> {
         sent.expect("the display is there").check().expect("the root takes messages");
     }
 
-    /// What a window manager sends when the close button is clicked.
+    /// The message that a window manager sends when the close button is clicked.
     pub(crate) fn request_close(&self) {
         let [protocols, delete] = ["WM_PROTOCOLS", "WM_DELETE_WINDOW"].map(|name| self.screen.atom(name));
         let message = ClientMessageEvent::new(32, self.window, protocols, [delete, CURRENT_TIME, 0, 0, 0]);

@@ -44,10 +44,10 @@ const SIDE: u32 = 96;
 /// How wide the boards around a side are.
 const FRAME: u32 = 14;
 
-/// What a texel of a side shows of a board.
+/// A texel of a board on a side.
 struct BoardTexel {
     number: u32,
-    /// Where the board's surface is.
+    /// The height of the board's surface.
     height: f32,
     /// The texel lies between two boards.
     is_gap: bool,
@@ -78,7 +78,7 @@ fn board(x: u32, y: u32) -> BoardTexel {
     BoardTexel { number: from_left / width, height: 0.4, is_gap, along: y, across: x }
 }
 
-/// Numbers from 0 to 1 that look random (as noise is, `pcg` of Jarzynski and Olano 2020).
+/// Random-looking numbers from 0 to 1 (`pcg` of Jarzynski and Olano 2020).
 fn grain(x: u32, y: u32) -> f32 {
     let state = (x.wrapping_mul(1_664_525) ^ y.wrapping_mul(22_695_477)).wrapping_mul(747_796_405) + 1;
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);

@@ -1,4 +1,4 @@
-//! What can be wrong with a model file.
+//! Errors of model files.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -9,6 +9,13 @@ use crate::MeshError;
 
 /// Why a model file was refused. Every message begins with the file; lines are numbered from 1, as editors do, and the
 /// elements of a glTF file from 0, as that format does.
+///
+/// ```
+/// use halfway_mesh::{Format, load_bytes};
+///
+/// let error = load_bytes(Format::Obj, b"v 0 0 0\nv 1 zero 0\n").unwrap_err();
+/// assert!(error.to_string().starts_with("model.obj:2: "), "{error}");
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LoadError {
@@ -17,7 +24,7 @@ pub enum LoadError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
     /// A directory, a device or the like.
@@ -32,42 +39,42 @@ pub enum LoadError {
         /// The file.
         path: PathBuf,
     },
-    /// The extension names no format that is known.
+    /// The extension names no known format.
     #[error("{}: the extension {extension:?} is unknown; smf, obj, gltf, glb, ply or stl is expected", path.display())]
     UnknownExtension {
         /// The file.
         path: PathBuf,
-        /// What follows the last dot of its name, in lower case; empty where there is none.
+        /// The text after the last dot of the name, in lower case; empty where there is none.
         extension: String,
     },
-    /// Whoever was told of the progress asked for the end.
+    /// The caller's progress function asked to stop.
     #[error("{}: stopped", path.display())]
     Stopped {
         /// The file.
         path: PathBuf,
     },
-    /// A line of a text file is not what its place asks for.
+    /// A line of a text file does not hold what belongs there.
     #[error("{}:{line}: {found}; {expected} expected", path.display())]
     Line {
         /// The file.
         path: PathBuf,
         /// The line, from 1.
         line: usize,
-        /// What was found.
+        /// The text that was found.
         found: String,
-        /// What was expected, with its verb.
+        /// The text that was expected, with its verb.
         expected: String,
     },
-    /// An element of a glTF file is not what its place asks for.
+    /// An element of a glTF file does not hold what belongs there.
     #[error("{}: {element}: {found}; {expected} expected", path.display())]
     Element {
         /// The file.
         path: PathBuf,
         /// The element, as `accessors[3]`.
         element: String,
-        /// What was found.
+        /// The value that was found.
         found: String,
-        /// What was expected, with its verb.
+        /// The value that was expected, with its verb.
         expected: String,
     },
     /// A mesh of the file is not valid.
@@ -77,10 +84,10 @@ pub enum LoadError {
         path: PathBuf,
         /// The mesh.
         element: String,
-        /// What is wrong with it.
+        /// The fault of the mesh.
         source: MeshError,
     },
-    /// The file shows nothing.
+    /// The file has no triangles.
     #[error("{}: no triangles; at least one is expected{}", path.display(), in_brackets(skipped.as_ref()))]
     NoTriangles {
         /// The file.

@@ -3,6 +3,14 @@
 use std::path::Path;
 
 /// A format of model files.
+///
+/// ```
+/// use std::path::Path;
+/// use halfway_mesh::Format;
+///
+/// assert_eq!(Format::from_path(Path::new("scans/bunny.PLY")), Some(Format::Ply));
+/// assert_eq!(Format::from_path(Path::new("bunny.txt")), None);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
     /// Garland's SMF.
@@ -23,7 +31,7 @@ impl Format {
     /// All formats.
     pub const ALL: [Self; 6] = [Self::Smf, Self::Obj, Self::Gltf, Self::Glb, Self::Ply, Self::Stl];
 
-    /// What the names of its files end in, without the dot.
+    /// The extension of its files, without the dot.
     pub const fn extension(self) -> &'static str {
         match self {
             Self::Smf => "smf",
@@ -35,8 +43,8 @@ impl Format {
         }
     }
 
-    /// The format that a file's extension names, in either case.
-    pub fn of(path: &Path) -> Option<Self> {
+    /// The format that a file's extension names, in upper or lower case.
+    pub fn from_path(path: &Path) -> Option<Self> {
         let extension = path.extension()?;
         Self::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }

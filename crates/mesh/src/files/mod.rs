@@ -1,4 +1,4 @@
-//! Model files: which there are, and how they are opened.
+//! Model files: their formats, and how they are opened.
 
 mod error;
 mod format;
@@ -25,9 +25,9 @@ pub use write::{WriteError, write, write_quantised};
 
 use source::Source;
 
-/// Reads a model file. Its format is told by its extension, in either case:
+/// Reads a model file. Its format is told by its extension, in upper or lower case:
 ///
-/// | extension | format | what is read |
+/// | extension | format | contents that are read |
 /// |---|---|---|
 /// | `smf` | Garland's SMF | vertices, triangles, scopes, transforms, bound normals, colours and texture coordinates; a part for each group |
 /// | `obj` | Wavefront OBJ with its MTL files | polygons, normals, texture coordinates, colours, smoothing groups, materials; a part for each name of an object or group and material |
@@ -36,11 +36,25 @@ use source::Source;
 /// | `stl` | STL | triangles, with vertices at equal positions as one; a part for each solid |
 ///
 /// Polygons are cut into triangles, concave ones too. Files that a model refers to are read only from its own folder
-/// and those in it. What is skipped is said in [`Model::warnings`]. Normals that are missing are those of the default
+/// and its subfolders. [`Model::warnings`] lists what was skipped. Missing normals are computed by the default
 /// [weighting](crate::NormalWeighting).
 ///
-/// No memory is taken on the word of a number in the file: what is allocated is in proportion to the data that is
-/// there.
+/// Allocations are in proportion to the data in the file; no count in a header is believed.
+///
+/// ```
+/// use bevy_math::Mat4;
+/// use halfway_mesh::{Mesh, Model, Part, Teapot, load, write};
+///
+/// let path = std::env::temp_dir().join(format!("teapot_{}.glb", std::process::id()));
+/// let mesh = Mesh::from(Teapot::new(4));
+/// let part = Part { name: "pot".into(), mesh, material: None, world_from_part: Mat4::IDENTITY };
+/// write(&path, &Model { parts: vec![part], ..Model::default() })?;
+///
+/// let model = load(&path)?;
+/// assert_eq!((model.parts[0].name.as_str(), model.triangle_count()), ("pot", 992));
+/// # std::fs::remove_file(path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// The file is missing, empty, not a regular file or of another format; it is malformed, where the error names the line
@@ -49,8 +63,20 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
     load_with(path, LoadOptions::default(), &mut |_| ControlFlow::Continue(()))
 }
 
-/// [`load`], with options, and with a function that is told now and then how far a large file is read; where it breaks,
-/// the error is [`LoadError::Stopped`].
+/// [`load`], with options and a progress function, which is called now and then while a large file is read; if it
+/// breaks, the error is [`LoadError::Stopped`].
+///
+/// ```
+/// use std::{ops::ControlFlow, path::Path};
+/// use halfway_mesh::{LoadError, LoadOptions, LoadProgress, load_with};
+///
+/// let mut progress = |LoadProgress { done, of }| {
+///     println!("{done} of {of} bytes");
+///     ControlFlow::Continue(())
+/// };
+/// let error = load_with(Path::new("missing.obj"), LoadOptions { outside: true }, &mut progress).unwrap_err();
+/// assert!(matches!(error, LoadError::Read { .. }));
+/// ```
 ///
 /// # Errors
 /// As [`load`].
@@ -59,25 +85,33 @@ pub fn load_with(
     options: LoadOptions,
     progress: &mut dyn FnMut(LoadProgress) -> ControlFlow<()>,
 ) -> Result<Model, LoadError> {
-    let Some(format) = Format::of(path) else {
+    let Some(format) = Format::from_path(path) else {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         return Err(LoadError::UnknownExtension { path: path.to_owned(), extension });
     };
-    // Several readers tell it, one at a time.
+    // Several readers report to it, one at a time.
     let progress = RefCell::new(progress);
     let on_progress = |at| (progress.borrow_mut())(at);
     parse(format, Source::open(path, options, &on_progress)?)
 }
 
-/// Reads a model that is in memory. It has no folder: files that it refers to are not read. In errors it goes by the
-/// name `model` and the format's extension.
+/// Reads a model from memory. It has no folder: files that it refers to are not read. Error messages call it `model`
+/// with the format's extension.
+///
+/// ```
+/// use halfway_mesh::{Format, load_bytes};
+///
+/// let model = load_bytes(Format::Obj, b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")?;
+/// assert_eq!(model.parts[0].mesh.triangle_count(), 2);
+/// # Ok::<(), halfway_mesh::LoadError>(())
+/// ```
 ///
 /// # Errors
 /// As [`load`].
 pub fn load_bytes(format: Format, bytes: &[u8]) -> Result<Model, LoadError> {
     let name = format!("model.{}", format.extension());
     let path = Path::new(&name);
-    parse(format, Source::of_bytes(path, bytes)?)
+    parse(format, Source::from_bytes(path, bytes)?)
 }
 
 fn parse(format: Format, source: Source) -> Result<Model, LoadError> {

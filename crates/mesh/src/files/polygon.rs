@@ -2,13 +2,13 @@
 
 use bevy_math::{DVec2, DVec3, Vec3};
 
-/// So many corners are looked at for each corner of a polygon before the rest is cut without looking. Only polygons of
-/// ten thousand corners and more, or made for it, come near.
+/// How many corners are tested for each corner of a polygon before the rest is cut without tests. Only polygons of ten
+/// thousand corners and more, or malicious ones, come near.
 const PATIENCE: usize = 1 << 14;
 
 /// Cuts a polygon of at least three corners into triangles, two fewer than it has corners, each as three numbers of
-/// corners in the polygon's own winding. Returns whether it came out without overlaps, as every polygon does that is
-/// simple when seen along its normal; others, which cross themselves, are cut all the same.
+/// corners in the polygon's own winding. Returns whether the triangles do not overlap, which holds for every polygon
+/// that is simple when seen along its normal; self-intersecting ones are cut all the same.
 ///
 /// Triangles and convex polygons are cut as a fan from the first corner, others by ears (Meisters 1975, "Polygons have
 /// ears"). No corner is dropped, not even where three lie in a line: neighbours may use it.
@@ -30,8 +30,8 @@ pub(super) fn cut(points: &[Vec3], mut triangle: impl FnMut([u32; 3])) -> bool {
     Ears::new(&flat).cut(triangle)
 }
 
-/// The polygon along its normal (Newell's, Sutherland et al. 1974), so that it winds counter-clockwise. Moved and
-/// scaled, so that no size over- or underflows.
+/// The polygon projected along its normal (Newell's, Sutherland et al. 1974), so that it winds counter-clockwise.
+/// Moved and scaled, so that no size over- or underflows.
 fn flattened(points: &[Vec3]) -> Vec<DVec2> {
     let origin = points[0].as_dvec3();
     let size = points.iter().map(|p| (p.as_dvec3() - origin).abs().max_element()).fold(0.0, f64::max);
@@ -57,7 +57,7 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - b)
 }
 
-/// What is left of a polygon, as a ring of corners.
+/// The remaining polygon, as a ring of corners.
 struct Ears<'a> {
     points: &'a [DVec2],
     next: Vec<u32>,
@@ -99,11 +99,11 @@ impl<'a> Ears<'a> {
                 triangle([before, at, after]);
                 self.next[before as usize] = after;
                 self.previous[after as usize] = before;
-                // What points at itself is gone.
+                // A removed corner points at itself.
                 self.next[at as usize] = at;
                 self.left -= 1;
                 since_ear = 0;
-                // Not the corner beside it: that makes slivers around one corner.
+                // Not the neighbouring corner, which would make slivers around one corner.
                 at = self.next[after as usize];
             } else {
                 since_ear += 1;
@@ -113,12 +113,12 @@ impl<'a> Ears<'a> {
         let last = [self.previous[at as usize], at, self.next[at as usize]];
         triangle(last);
         let [a, b, c] = last.map(|i| self.points[i as usize]);
-        // All others wind as the polygon; what a polygon that crosses itself has too much of is left for the last. The
+        // All other triangles wind as the polygon; the surplus of a self-intersecting polygon is left for the last. The
         // coordinates are of size 1.
         clean && self.patience > 0 && turn(a, b, c) > -1e-12
     }
 
-    /// Corners that turn left go on doing so while ears are cut, in a polygon that does not cross itself.
+    /// Counts the reflex corners. In a simple polygon, convex corners stay convex while ears are cut.
     fn count_reflex(&mut self) {
         let Self { points, next, previous, reflex, .. } = self;
         reflex.retain(|&i| {
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_is_no_polygon_gives_as_many_triangles() {
+    fn invalid_polygons_give_as_many_triangles() {
         let bow = polygon(&[[0., 0.], [1., 1.], [1., 0.], [0., 1.], [0.5, 3.0]]);
         let zigzag: Vec<Vec3> = (0..500).map(|i| Vec3::new((i * 37 % 101) as f32, (i * 53 % 89) as f32, 0.0)).collect();
         for points in [vec![Vec3::ZERO; 5], vec![Vec3::X, Vec3::Y, Vec3::X, Vec3::Y], bow, zigzag] {

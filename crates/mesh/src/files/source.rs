@@ -1,4 +1,4 @@
-//! What is read from: a file or bytes, how far reading is, and where the files lie that it refers to.
+//! Input of the readers: a file or bytes, the progress of reading, and the folder of the files that a model refers to.
 
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Read as _};
@@ -15,21 +15,21 @@ pub struct LoadOptions {
     pub outside: bool,
 }
 
-/// How far a file is read. The files that a model refers to count each by itself.
+/// The progress of reading a file. Each file that a model refers to counts by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LoadProgress {
-    /// Bytes that are read.
+    /// Bytes read so far.
     pub done: u64,
-    /// Bytes that there are.
+    /// Bytes in total.
     pub of: u64,
 }
 
-/// What is asked now and then whether to go on.
+/// The progress function, which also decides whether to go on.
 pub(super) type OnProgress<'a> = dyn Fn(LoadProgress) -> ControlFlow<()> + 'a;
 
-/// So many bytes are read between two reports.
+/// Bytes between two reports of progress.
 const REPORT: u64 = 1 << 20;
-/// How much is asked of the system at once.
+/// The most bytes asked of the system at once.
 const CHUNK: usize = 1 << 18;
 
 /// A model file, opened.
@@ -50,8 +50,8 @@ impl<'a> Source<'a> {
         Ok(Self { path, reader: around.open(path)?, around })
     }
 
-    /// Takes bytes in memory for the content of a file.
-    pub(super) fn of_bytes(path: &'a Path, bytes: &'a [u8]) -> Result<Self, LoadError> {
+    /// Wraps bytes in memory as the content of a file.
+    pub(super) fn from_bytes(path: &'a Path, bytes: &'a [u8]) -> Result<Self, LoadError> {
         let reader = Reader::new(path, bytes, bytes.len() as u64, None)?;
         Ok(Self { path, reader, around: ModelFolder::nowhere() })
     }
@@ -71,7 +71,7 @@ impl<'a> Reader<'a> {
     /// Opens a regular file that has bytes.
     fn open(path: &'a Path, on_progress: Option<&'a OnProgress<'a>>) -> Result<Self, LoadError> {
         let failed = |source| LoadError::Read { path: path.to_owned(), source };
-        // Asked before it is opened: opening a pipe waits for its other end.
+        // Checked before it is opened: opening a pipe waits for its other end.
         let metadata = fs::metadata(path).map_err(failed)?;
         if !metadata.is_file() {
             return Err(LoadError::NotAFile { path: path.to_owned() });
@@ -80,7 +80,7 @@ impl<'a> Reader<'a> {
         Self::new(path, BufReader::with_capacity(CHUNK, file), metadata.len(), on_progress)
     }
 
-    /// So many bytes, at least one.
+    /// A reader of so many bytes, at least one.
     fn new(
         path: &'a Path,
         from: impl BufRead + 'a,
@@ -109,7 +109,7 @@ impl<'a> Reader<'a> {
         Ok(count > 0)
     }
 
-    /// The bytes to come, as many as the buffer takes and as there are; they are read again. At most [`CHUNK`] at once.
+    /// The next bytes, as many as the buffer takes and as there are, without consuming them. At most [`CHUNK`] at once.
     pub(super) fn peek(&mut self, buffer: &mut [u8]) -> Result<usize, LoadError> {
         match self.from.fill_buf() {
             Ok(ahead) => {
@@ -141,7 +141,7 @@ impl<'a> Reader<'a> {
     /// All bytes.
     pub(super) fn whole(mut self) -> Result<Vec<u8>, LoadError> {
         let mut whole = Vec::new();
-        // The length is the system's word, not the file's; it may still be wrong.
+        // The length is the system's claim, not the file's; it may still be wrong.
         let _ = whole.try_reserve_exact(usize::try_from(self.of).unwrap_or(0));
         loop {
             match self.from.by_ref().take(REPORT).read_to_end(&mut whole).map_err(|source| self.failed(source))? {
@@ -169,7 +169,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Where the files lie that a model refers to.
+/// The folder of the files that a model refers to.
 #[derive(Clone, Copy)]
 pub(super) struct ModelFolder<'a> {
     /// The model's folder; `None` where the model is bytes in memory and has no files around it.
@@ -187,7 +187,7 @@ impl<'a> ModelFolder<'a> {
         Self { folder: None, options: LoadOptions::default(), on_progress: None }
     }
 
-    /// Opens a file that was found.
+    /// Opens a file that [`find`](Self::find) has found.
     pub(super) fn open<'b>(&self, path: &'b Path) -> Result<Reader<'b>, LoadError>
     where
         'a: 'b,
@@ -195,7 +195,7 @@ impl<'a> ModelFolder<'a> {
         Reader::open(path, self.on_progress)
     }
 
-    /// The path of a file that the model refers to, whether it is there or not; `None` where it may not be read.
+    /// The path of a file that the model refers to, whether it exists or not; `None` if it may not be read.
     pub(super) fn find(&self, reference: &str) -> Option<PathBuf> {
         let folder = self.folder?;
         let path = folder.join(reference);
@@ -205,7 +205,7 @@ impl<'a> ModelFolder<'a> {
         if !stays_inside(Path::new(reference)) {
             return None;
         }
-        // A symbolic link may lead out all the same.
+        // A symbolic link may still lead outside.
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         match (path.canonicalize(), folder.canonicalize()) {
             (Ok(found), Ok(folder)) if !found.starts_with(&folder) => None,
@@ -214,12 +214,12 @@ impl<'a> ModelFolder<'a> {
     }
 }
 
-/// The name of a file without its extension, which names a model that has no name of its own.
+/// A file's name without its extension, which names a model that has no name of its own.
 pub(super) fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Whether a path that stands in a file stays in that file's folder: relative, and without `..`.
+/// Whether a path in a file stays in that file's folder: relative, and without `..`.
 fn stays_inside(reference: &Path) -> bool {
     let mut names = 0;
     reference.components().all(|component| {

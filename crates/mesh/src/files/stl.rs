@@ -1,4 +1,4 @@
-//! STL, in ASCII and binary (Burns 1993, "Automated Fabrication", §6.5): triangles that share nothing.
+//! STL, in ASCII and binary (Burns 1993, "Automated Fabrication", §6.5): triangles that share no vertices.
 
 use bevy_math::{Mat4, Vec3};
 
@@ -12,11 +12,11 @@ use crate::{Mesh, Model, Part, face_normal};
 const HEADER: usize = 84;
 const FACET: usize = 50;
 
-/// Reads the triangles; vertices at equal positions become one, and normals are computed, since those of the file say
-/// no more than the winding. In ASCII a part for each `solid`.
+/// Reads the triangles. Vertices at equal positions are merged, and normals are computed, since those of the file only
+/// repeat the winding. ASCII files have a part for each `solid`.
 ///
-/// A file is binary where its length is what its count of triangles asks for, even if it begins with `solid` as some
-/// binary ones do, and wherever it does not begin so.
+/// A file is binary if its length fits its count of triangles, even if it begins with `solid` as some binary files do,
+/// and also if it does not begin with `solid`.
 pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let Source { path, mut reader, .. } = source;
     let mut header = [0; HEADER];
@@ -73,7 +73,7 @@ impl StlSolid {
     }
 
     fn triangle(&mut self, normal: Vec3, corners: [Vec3; 3]) {
-        // −0 and 0 are one place.
+        // −0 and 0 are the same position.
         self.indices.extend(corners.map(|p| self.positions.number((p + Vec3::ZERO).to_array().map(f32::to_bits))));
         let is_against = |n: Vec3| n.as_dvec3().dot(normal.as_dvec3()) < 0.0;
         self.against += usize::from(face_normal(corners[0], corners[1], corners[2]).is_some_and(is_against));
@@ -125,7 +125,7 @@ fn binary(mut reader: Reader, count: u32, warnings: &mut Vec<String>, name: Stri
     Ok(solid)
 }
 
-/// `solid`, facets, `endsolid`, perhaps several.
+/// Reads `solid`, facets and `endsolid`, perhaps several times.
 fn text(reader: Reader, skipped: &mut Skipped, name: &str) -> Result<Vec<StlSolid>, LoadError> {
     let mut lines = Statements::new(reader, false);
     let mut solids: Vec<StlSolid> = Vec::new();
@@ -172,7 +172,7 @@ fn text(reader: Reader, skipped: &mut Skipped, name: &str) -> Result<Vec<StlSoli
     Ok(solids)
 }
 
-/// `facet normal x y z`. Programs write what they like for degenerate triangles.
+/// Reads `facet normal x y z`. Programs write arbitrary normals for degenerate triangles.
 fn facet_normal(statement: &Statement) -> Result<Vec3, LoadError> {
     const EXPECTED: &str = "`facet normal` and three numbers are";
     let [word, numbers @ ..]: [&str; 4] = statement.exactly(EXPECTED)?;

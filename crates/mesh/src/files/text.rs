@@ -1,4 +1,4 @@
-//! What the line-based formats share: lines, numbers, and the counting of what is skipped.
+//! Shared by the line-based formats: lines, numbers, and the count of skipped statements.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -28,7 +28,7 @@ pub(super) struct Statements<'a> {
 }
 
 impl<'a> Statements<'a> {
-    /// Where lines are `continued`, a backslash at the end of one that is no comment joins the next one to it.
+    /// If lines are `continued`, a backslash at the end of a line that is not a comment joins it with the next.
     pub(super) fn new(reader: Reader<'a>, continued: bool) -> Self {
         let (buffer, latin1) = (Vec::new(), String::new());
         Self { reader, buffer, latin1, latin1_lines: None, line: 0, read: 0, continued }
@@ -101,14 +101,14 @@ impl<'a> Statements<'a> {
     }
 }
 
-/// The place of the backslash that ends a line.
+/// The position of the backslash that ends a line.
 fn continued_at(line: &[u8]) -> Option<usize> {
     let line = line.strip_suffix(b"\n").unwrap_or(line);
     let line = line.strip_suffix(b"\r").unwrap_or(line);
     line.strip_suffix(b"\\").map(<[u8]>::len)
 }
 
-/// A statement: a keyword and what follows it.
+/// A statement: a keyword and its words.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Statement<'a> {
     pub(super) path: &'a Path,
@@ -116,7 +116,7 @@ pub(super) struct Statement<'a> {
     pub(super) line: usize,
     /// Its first word.
     pub(super) keyword: &'a str,
-    /// What follows it, without white space at the ends.
+    /// The text after it, trimmed.
     pub(super) rest: &'a str,
 }
 
@@ -126,7 +126,7 @@ impl<'a> Statement<'a> {
         self.rest.split_ascii_whitespace().take_while(|word| !word.starts_with('#'))
     }
 
-    /// The words after the keyword, of which there must be `N`.
+    /// The words after the keyword; there must be `N`.
     pub(super) fn exactly<const N: usize>(&self, expected: &str) -> Result<[&'a str; N], LoadError> {
         let mut found = [""; N];
         let mut words = self.words();
@@ -139,8 +139,7 @@ impl<'a> Statement<'a> {
         Ok(found)
     }
 
-    /// The words after the keyword as finite numbers, of which there may be as many as `counts` says, and how many
-    /// there are.
+    /// The words after the keyword as finite numbers, whose count must be one of `counts`, and how many there are.
     pub(super) fn numbers<const N: usize>(
         &self,
         counts: &[usize],
@@ -166,12 +165,12 @@ impl<'a> Statement<'a> {
         LoadError::Line { path: self.path.to_owned(), line: self.line, found: found.into(), expected: expected.into() }
     }
 
-    /// That the statement does not have the words it should have.
+    /// The error of a statement with the wrong words.
     pub(super) fn unexpected(&self, expected: &str) -> LoadError {
         self.error(format!("`{}`", abridged(self.keyword, self.rest)), expected)
     }
 
-    /// That one of its words is not what it should be.
+    /// The error of one wrong word.
     pub(super) fn unexpected_word(&self, word: &str, expected: &str) -> LoadError {
         self.error(format!("`{}` in `{}`", abridged(word, ""), abridged(self.keyword, "")), expected)
     }
@@ -188,13 +187,13 @@ impl<'a> Statement<'a> {
     pub(super) fn uv(&self, u: &str, v: &str) -> Result<Vec2, LoadError> {
         let u = self.number(u)?;
         self.number(v)?;
-        // In f64, where v is turned without loss.
+        // In f64, where v is flipped without loss.
         let v: f64 = v.parse().map_err(|_| self.unexpected_word(v, "a finite number is"))?;
         Ok(Vec2::new(u, (1.0 - v) as f32))
     }
 }
 
-/// A statement as it is quoted in an error: a file may have lines of any length.
+/// A statement as errors quote it, cut short: a file may have lines of any length.
 pub(super) fn abridged(keyword: &str, rest: &str) -> String {
     const LONGEST: usize = 60;
     let mut shown: String = [keyword, " ", rest].into_iter().flat_map(str::chars).take(LONGEST + 1).collect();
@@ -207,12 +206,12 @@ pub(super) fn abridged(keyword: &str, rest: &str) -> String {
     shown
 }
 
-/// Kinds of statements that were skipped, each with its first line and how many there were. A file of anything else
-/// has as many kinds as words; past the first few they count as one.
+/// Kinds of skipped statements, each with its first line and how many there were. A file of anything else has as many
+/// kinds as words; beyond the first few they count as one.
 #[derive(Debug, Default)]
 pub(super) struct Skipped(BTreeMap<String, (usize, usize)>);
 
-/// How many kinds are told apart.
+/// How many kinds are listed separately.
 const KINDS: usize = 20;
 
 impl Skipped {
@@ -230,7 +229,7 @@ impl Skipped {
         self.0.entry(kind).or_insert((line, 0)).1 += count;
     }
 
-    /// Counts a statement that is not read.
+    /// Counts a statement that is not supported.
     pub(super) fn add_statement(&mut self, statement: &Statement) {
         self.add(statement.line, format!("`{}` is skipped", abridged(statement.keyword, "")));
     }

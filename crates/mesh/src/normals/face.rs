@@ -5,15 +5,23 @@ use rayon::prelude::*;
 
 use super::NormalWeighting;
 
-/// A triangle is degenerate where its height above its longest edge is at most this fraction of that edge. It is one
-/// rounding step of `f32`: below it the direction of the normal says how the corners were rounded and nothing else.
+/// A triangle is degenerate if its height above its longest edge is at most this fraction of that edge. It is one
+/// rounding step of `f32`: below it the direction of the normal depends on the rounding of the corners alone.
 const DEGENERATE_HEIGHT: f64 = f32::EPSILON as f64;
 
 /// The unit normal of the triangle, toward the side from which its corners wind counter-clockwise:
 /// (p₁ − p₀) × (p₂ − p₀), normalised.
 ///
-/// `None` where the triangle is degenerate: two corners coincide, all lie on a line, or the height above the longest
-/// edge is at most 2⁻²³ of that edge; and where a coordinate is not finite. Safe at any scale of `f32`.
+/// `None` for degenerate triangles: two corners coincide, all lie on a line, or the height above the longest edge is at
+/// most 2⁻²³ of that edge; and where a coordinate is not finite. Safe at any scale of `f32`.
+///
+/// ```
+/// use bevy_math::Vec3;
+/// use halfway_mesh::face_normal;
+///
+/// assert_eq!(face_normal(Vec3::ZERO, Vec3::X, Vec3::Y), Some(Vec3::Z));
+/// assert_eq!(face_normal(Vec3::ZERO, Vec3::X, 2.0 * Vec3::X), None);
+/// ```
 pub fn face_normal(p0: Vec3, p1: Vec3, p2: Vec3) -> Option<Vec3> {
     Face::new([p0, p1, p2]).map(|face| face.n.as_vec3())
 }
@@ -35,7 +43,7 @@ impl Face {
         let longest2 = edges.iter().fold(0.0_f64, |most, e| most.max(e.length_squared()));
         let cross = edges[0].cross(-edges[2]);
         let area2 = cross.length();
-        // Not `area2 <= …`: NaN must end here too.
+        // Not `area2 <= …`: NaN must be refused too.
         (area2 > DEGENERATE_HEIGHT * longest2 && area2.is_finite()).then(|| Self {
             n: cross * area2.recip(),
             area2,
@@ -75,5 +83,5 @@ pub(crate) fn face_normals(positions: &[Vec3], indices: &[u32]) -> Vec<Vec3> {
     triangles.par_iter().with_min_len(PARALLEL_MIN).map(normal).collect()
 }
 
-/// Fewer triangles than this are not worth another thread.
+/// Fewer triangles than this do not pay for another thread.
 pub(super) const PARALLEL_MIN: usize = 1 << 12;

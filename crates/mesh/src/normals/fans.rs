@@ -9,10 +9,10 @@ use crate::Mesh;
 use crate::classes::Classes;
 use crate::edges::Edges;
 
-/// The directions of two normals from `f32` positions are known no better than this; flat edges stay smooth at angle 0.
+/// The accuracy of the angle between two normals from `f32` positions; flat edges stay smooth at angle 0.
 const ANGLE_ROUNDING: f64 = 1e-6;
 
-/// Pairs are looked at up to this number of triangles an edge, so that no file makes their number quadratic in its
+/// Pairs are compared up to this number of triangles an edge, so that no file makes their number quadratic in its
 /// size.
 const CROWD: usize = 16;
 
@@ -24,7 +24,7 @@ pub(crate) fn creased_normals(mesh: &Mesh, angle: f32, weighting: NormalWeightin
     let smooth = |a: usize, b: usize| {
         let (a, b) = (normals[a].as_dvec3(), normals[b].as_dvec3());
         let sound = a.length_squared() > 0.0 && b.length_squared() > 0.0;
-        // Not `acos`, which loses the small angles.
+        // Not `acos`, which loses small angles.
         sound && a.cross(b).length().atan2(a.dot(b)) <= limit
     };
     let mut fans = Fans::new(&edges);
@@ -37,11 +37,11 @@ pub(crate) fn creased_normals(mesh: &Mesh, angle: f32, weighting: NormalWeightin
     fans.normals(mesh, edges, normals, weighting)
 }
 
-/// Corners that share a normal: at first each is alone.
+/// Corners that share a normal: at first, each is alone.
 pub(crate) struct Fans(Classes);
 
 impl Fans {
-    /// Every corner of the triangles for itself.
+    /// Each corner in a fan of its own.
     pub(crate) fn new(edges: &Edges) -> Self {
         Self(Classes::new(3 * edges.triangles().len()))
     }
@@ -53,7 +53,7 @@ impl Fans {
         self.0.join(a[1], b[1]);
     }
 
-    /// Degenerate triangles show nothing: their corners take any fan at their position, so that no vertex is made for
+    /// Degenerate triangles are invisible: their corners join any fan at their position, so that no vertex is made for
     /// them. `normals` are those of the faces, zero for degenerate ones.
     fn adopt_degenerate(&mut self, edges: &Edges, normals: &[Vec3]) {
         if normals.iter().all(|n| *n != Vec3::ZERO) {

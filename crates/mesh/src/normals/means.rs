@@ -9,12 +9,12 @@ use super::face::{Face, PARALLEL_MIN};
 use super::{NormalReport, NormalWeighting};
 use crate::numbering::Numbering;
 
-/// A mean is taken to have vanished where its length is at most this fraction of the sum of the weights; a few
-/// rounding steps of the `f32` positions.
+/// A mean has vanished if its length is at most this fraction of the sum of the weights: a few rounding steps of the
+/// `f32` positions.
 const CANCELLED: f64 = 1e-6;
 
-/// So many triangles have their normals and weights computed together, by all threads, before one thread adds them up
-/// in the order of the triangles: sums do not depend on the number of threads, and the block stays in the cache.
+/// The normals and weights of so many triangles are computed by all threads before one thread adds them up in the order
+/// of the triangles: sums do not depend on the number of threads, and the block stays in the cache.
 const BLOCK: usize = 1 << 14;
 
 /// The normals of all vertices. `indices` has three a triangle, all in range.
@@ -23,7 +23,7 @@ pub(crate) fn vertex_normals(
     indices: &[u32],
     weighting: NormalWeighting,
 ) -> (Vec<Vec3>, NormalReport) {
-    let groups = Numbering::of_positions(positions);
+    let groups = Numbering::from_positions(positions);
     let means =
         Means::new(positions, indices, groups.count(), weighting, |corner| groups.numbers[indices[corner] as usize]);
     let mut report = means.report;
@@ -37,7 +37,7 @@ pub(super) struct Means {
     normals: Vec<Vec3>,
     /// The classes whose mean vanished.
     cancelled: HashMap<u32, Largest>,
-    /// How many triangles were degenerate.
+    /// Counts the degenerate triangles.
     pub(super) report: NormalReport,
 }
 
@@ -56,8 +56,8 @@ struct Largest {
 }
 
 impl Means {
-    /// The means of the corners by the number of the class that `class` gives to each corner (3·triangle + corner),
-    /// below `classes`.
+    /// The means of the classes of corners; `class` gives the class of each corner (3·triangle + corner), below
+    /// `classes`.
     pub(super) fn new(
         positions: &[Vec3],
         indices: &[u32],
@@ -95,7 +95,7 @@ impl Means {
         means
     }
 
-    /// The second look that only vanished means take.
+    /// Finds the largest triangle of each vanished mean, in a second pass.
     fn find_largest(&mut self, positions: &[Vec3], indices: &[u32], class: impl Fn(usize) -> u32) {
         if self.cancelled.is_empty() {
             return;
@@ -111,7 +111,7 @@ impl Means {
         }
     }
 
-    /// The normal of a vertex of this class, counted where it is made up.
+    /// The normal of a vertex of this class; counts those that are filled in.
     pub(super) fn normal(&self, class: u32, report: &mut NormalReport) -> Vec3 {
         let n = self.normals[class as usize];
         if n != Vec3::ZERO {
@@ -126,7 +126,7 @@ impl Means {
     }
 }
 
-/// The means that did not vanish, zero for the others, and the classes of those that had weights.
+/// The means that did not vanish, zero for the others, and the classes with weights whose mean vanished.
 fn settle(sums: &[NormalSum]) -> (Vec<Vec3>, HashMap<u32, Largest>) {
     let mut cancelled = HashMap::new();
     let settled = |(class, sum): (usize, &NormalSum)| {

@@ -6,11 +6,11 @@ use super::{NormalReport, Normals, creased_normals, face_normals, vertex_normals
 use crate::Mesh;
 
 impl Mesh {
-    /// The mesh with its normals by the policy, and what had to be left out or made up.
+    /// The mesh with its normals by the policy, and a report of triangles left out and normals filled in.
     ///
     /// [`Normals::Keep`] changes nothing. [`Normals::Face`] gives every triangle three vertices of its own, and +Y to
-    /// degenerate ones, which show nothing. [`Normals::Weighted`] keeps vertices and triangles. [`Normals::Creased`]
-    /// keeps the triangles, splits vertices and leaves out those of no triangle. All but `Keep` drop the tangents.
+    /// degenerate ones, which are invisible. [`Normals::Weighted`] keeps vertices and triangles. [`Normals::Creased`]
+    /// keeps the triangles, splits vertices and drops unused ones. All but `Keep` drop the tangents.
     #[must_use]
     pub fn with_normals(self, policy: Normals) -> (Self, NormalReport) {
         match policy {

@@ -1,4 +1,4 @@
-//! Normals that are not one a vertex: vertices are split between classes of corners.
+//! Normals with more than one at a vertex: vertices are split between classes of corners.
 
 use bevy_math::Vec3;
 
@@ -7,16 +7,16 @@ use super::{NormalReport, NormalWeighting};
 use crate::Mesh;
 use crate::numbering::Numbering;
 
-/// A mesh that gets its normals together with others.
+/// A mesh whose normals are computed together with those of others.
 pub(crate) struct Smoothed<'a> {
     pub(crate) mesh: &'a Mesh,
-    /// For each vertex the number of its point: what shares a point, in whichever mesh, shares its normal.
+    /// The point of each vertex: vertices of one point, in whichever mesh, share a normal.
     pub(crate) points: &'a [u32],
-    /// The smoothing group of each triangle; what is missing at the end counts as 0.
+    /// The smoothing group of each triangle; triangles beyond the end have group 0.
     pub(crate) groups: &'a [u32],
 }
 
-/// The meshes with the normals that the smoothing groups of Wavefront OBJ ask for.
+/// The meshes with the normals by the smoothing groups of Wavefront OBJ.
 ///
 /// The triangles of one group share the mean of their normals at each point, across all the meshes; those of group 0
 /// are faceted. Vertices are split where groups meet, and the vertices of no triangle are left out. All meshes together
@@ -76,7 +76,7 @@ mod tests {
 
     /// The normals of one mesh whose points are its positions.
     fn grouped(mesh: &Mesh, groups: &[u32]) -> Mesh {
-        let points = Numbering::of_positions(mesh.positions()).numbers;
+        let points = Numbering::from_positions(mesh.positions()).numbers;
         grouped_normals(&[Smoothed { mesh, points: &points, groups }], NormalWeighting::Angle).remove(0)
     }
 
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn groups_meet_in_a_crease_and_cross_seams() {
+    fn smoothing_groups_crease_and_cross_seams() {
         // Each side of the cube a group of its own, then pairs of sides; the cuboid itself has split vertices.
         for mesh in [cube(), Mesh::from(Cuboid::default())] {
             let sides: Vec<u32> = (0..12).map(|triangle| 1 + triangle / 2).collect();

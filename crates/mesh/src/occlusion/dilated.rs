@@ -1,7 +1,7 @@
-//! An image of which parts are empty, filled from beside.
+//! Fills the empty texels of an image from their neighbours.
 
-/// The numbers with those that are missing: each the mean of its neighbours, at corners too, that are there before it.
-/// What is next to the others comes first, then what is next to that. Some number has to be there.
+/// The numbers with the missing ones filled in: each is the mean of its neighbours, corners included, that are already
+/// known. Texels next to known ones come first, then the ring around those. At least one number must be known.
 pub(super) fn dilated(mut numbers: Vec<Option<f32>>, width: usize) -> Vec<f32> {
     let mut ring: Vec<usize> = (0..numbers.len()).filter(|at| numbers[*at].is_none()).collect();
     ring.retain(|at| around(*at, width, numbers.len()).any(|beside| numbers[beside].is_some()));

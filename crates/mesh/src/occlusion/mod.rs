@@ -16,16 +16,16 @@ use self::places::{TexelPlaces, UvPlace};
 use crate::triangle_tree::{Ray, TriangleTree};
 use crate::{Mesh, face_normal};
 
-/// How ambient occlusion is baked: see [`Mesh::baked_occlusion`].
+/// Settings for baking ambient occlusion with [`Mesh::baked_occlusion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OcclusionBake {
     /// Columns and rows of the image, 1 to [`MOST_SIDE`](Self::MOST_SIDE) each. Default 256 × 256.
     pub size: [u32; 2],
     /// Rays a texel, 1 to [`MOST_RAYS`](Self::MOST_RAYS). Default 256.
     pub rays: u32,
-    /// What is farther away does not occlude; positive, in lengths of the mesh. Default: infinite.
+    /// Surfaces farther away do not occlude; positive, in units of the mesh. Default: infinite.
     pub reach: f32,
-    /// Which texture coordinates lie on the image: 0 or 1. Default 0.
+    /// The set of texture coordinates that lie on the image: 0 or 1. Default 0.
     pub uv_set: usize,
 }
 
@@ -56,7 +56,7 @@ impl Default for OcclusionBake {
     }
 }
 
-/// Why nothing was baked.
+/// Why ambient occlusion was not baked.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OcclusionError {
@@ -71,30 +71,30 @@ pub enum OcclusionError {
     /// No rays, or too many.
     #[error("{found} rays a texel; 1 to {} are expected", OcclusionBake::MOST_RAYS)]
     Rays {
-        /// What was asked for.
+        /// The number that was given.
         found: u32,
     },
-    /// A reach that is no length.
+    /// The reach is not a positive length.
     #[error("a reach of {found}; a positive length is expected")]
     Reach {
-        /// What was asked for.
+        /// The reach that was given.
         found: f32,
     },
     /// The mesh has no such texture coordinates.
     #[error("the mesh has no texture coordinates number {set}, by which it lies on the image")]
     NoUvs {
-        /// The number that was asked for.
+        /// The number of the set.
         set: usize,
     },
     /// No texel's centre is on the mesh.
     #[error("no centre of a texel lies on the mesh; texture coordinates from 0 to 1 are expected")]
     NothingOnImage,
-    /// The caller has stopped it.
+    /// The caller's progress function asked to stop.
     #[error("stopped")]
     Stopped,
 }
 
-/// How much of the light from all directions arrives at each texel: 1 where all does, 0 where none does.
+/// The share of the light from all directions that arrives at each texel: 1 if unoccluded, 0 if fully occluded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OcclusionImage {
     size: [u32; 2],
@@ -121,21 +121,34 @@ impl OcclusionImage {
 
 impl Mesh {
     /// The ambient occlusion of the mesh by itself and by `occluders`, which stand in the same space, in an image over
-    /// its texture coordinates: what `MapKind::Occlusion` takes.
+    /// its texture coordinates, ready for `MapKind::Occlusion`.
     ///
-    /// At the place of each texel's centre it is A = 1/π·∫V(ω)·(n·ω)dω over the hemisphere around the interpolated
-    /// normal n (Zhukov, Iones and Kronin 1998, "An ambient light illumination model", with a distance after which all
-    /// is open), V being 0 where a triangle of either side is met within the reach. By rays whose density is the
-    /// cosine, so that A is the share of rays that meet nothing: the points of a Fibonacci spiral over the unit disc,
+    /// At the point of each texel's centre it is A = 1/π·∫V(ω)·(n·ω)dω over the hemisphere around the interpolated
+    /// normal n (Zhukov, Iones and Kronin 1998, "An ambient light illumination model", with a distance beyond which all
+    /// is open), V being 0 where a triangle of either side is hit within the reach. The density of the rays is the
+    /// cosine, so that A is the share of rays that hit nothing: the points of a Fibonacci spiral over the unit disc,
     /// raised onto the hemisphere (Nusselt's analogy), turned from texel to texel by Roberts' sequence R2. So the same
     /// call gives the same image.
     ///
-    /// Rays of curved surfaces start on what their normals round them to (Hanika 2021, "Hacking the shadow
-    /// terminator"), so that a convex mesh does not occlude itself. Where triangles overlap on the image the first
-    /// counts; what lies beyond it is not baked. Texels that are on no triangle continue the mean of their neighbours,
-    /// ring by ring, so that no filter finds anything else beside a seam.
+    /// Rays of curved surfaces start on the rounded surface of their normals (Hanika 2021, "Hacking the shadow
+    /// terminator"), so that a convex mesh does not occlude itself. Where triangles overlap on the image the first one
+    /// counts; triangles beyond the image are not baked. Texels on no triangle continue the mean of their neighbours,
+    /// ring by ring, so that filters find no foreign values beside a seam.
     ///
-    /// `progress` is told how many rows of how many are done, from any thread, and may stop the work.
+    /// `progress` is called with the number of finished rows and of all rows, from any thread, and may stop the work.
+    ///
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use halfway_mesh::{Mesh, OcclusionBake, Plane, UvSphere};
+    ///
+    /// let floor = Mesh::from(Plane { size: 4.0, divisions: 1 });
+    /// let ball = Mesh::from(UvSphere::new(1.0, 16, 8));
+    /// let bake = OcclusionBake { size: [9, 9], rays: 64, ..OcclusionBake::default() };
+    /// let image = floor.baked_occlusion(&[&ball], &bake, &|_, _| ControlFlow::Continue(()))?;
+    /// // Darker under the ball, in the middle, than in a corner.
+    /// assert!(image.shares()[40] < image.shares()[0]);
+    /// # Ok::<(), halfway_mesh::OcclusionError>(())
+    /// ```
     ///
     /// # Errors
     /// Numbers out of their range, no such texture coordinates, nothing on the image, or [`OcclusionError::Stopped`].
@@ -176,7 +189,7 @@ impl Mesh {
         Ok(OcclusionImage { size: bake.size, shares: dilated(shares, width as usize), baked })
     }
 
-    /// A at a place, of rays that start so far above its triangle.
+    /// A at a point, by rays that start at a distance of `clearance` above its triangle.
     fn openness(
         &self,
         place: &UvPlace,
@@ -190,12 +203,12 @@ impl Mesh {
         let normals = vertices.map(|vertex| self.normals()[vertex].as_dvec3());
         let mixed = |[a, b, c]: [DVec3; 3]| a * place.weights[0] + b * place.weights[1] + c * place.weights[2];
         let p = mixed(corners);
-        // Where p would be on the plane through each corner along its normal, if that is above p.
+        // p projected onto the plane through each corner along its normal, if that is above p.
         let raised = std::array::from_fn(|i| normals[i] * -(p - corners[i]).dot(normals[i]).min(0.0));
         let [a, b, c] = vertices.map(|vertex| self.positions()[vertex]);
         let face = face_normal(a, b, c).map_or(DVec3::ZERO, Vec3::as_dvec3);
         let n = mixed(normals).try_normalize().unwrap_or(face);
-        // Normals may say the opposite of the winding; rays start on their side.
+        // Normals may be opposite to the winding; rays start on the side of the normals.
         let face = if face.dot(n) < 0.0 { -face } else { face };
         let origin = p + mixed(raised) + face * clearance;
         let axes = axes_about(n);
@@ -209,11 +222,11 @@ impl Mesh {
     }
 }
 
-/// How far rays start above a triangle, in shares of the largest coordinate, so that no rounding lets them meet it: some
-/// roundings of `f32` positions.
+/// The distance of ray origins above a triangle, relative to the largest coordinate, so that no rounding lets them hit
+/// it: some roundings of `f32` positions.
 const CLEARANCE: f64 = 1.0 / (1 << 20) as f64;
 
-/// Whether a ray meets a triangle, from either side (Möller and Trumbore 1997, "Fast, minimum storage ray/triangle
+/// Whether a ray hits a triangle, from either side (Möller and Trumbore 1997, "Fast, minimum storage ray/triangle
 /// intersection").
 fn meets(ray: &Ray, corners: [Vec3; 3]) -> bool {
     let [corner, b, c] = corners.map(Vec3::as_dvec3);
@@ -236,7 +249,7 @@ const R2: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
 /// The golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Direction `ray` of N, of which as many see a part of the hemisphere around +Z as its cosine says; all turned.
+/// Ray number `ray` of `rays`, distributed over the hemisphere around +Z by the cosine; all turned by `turn`.
 fn cosine_weighted(ray: u32, rays: u32, turn: f64) -> DVec3 {
     let squared = (f64::from(ray) + 0.5) / f64::from(rays);
     let angle = TAU * (f64::from(ray) * GOLDEN + turn).fract();

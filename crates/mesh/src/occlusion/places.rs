@@ -1,4 +1,4 @@
-//! Where on a mesh the centres of an image's texels lie.
+//! The points of a mesh at the centres of an image's texels.
 
 use bevy_math::{DVec2, Vec2};
 
@@ -11,7 +11,7 @@ pub(super) struct UvPlace {
     pub(super) weights: [f64; 3],
 }
 
-/// The triangle on which each texel's centre lies, row by row.
+/// The triangle that contains each texel's centre, row by row.
 pub(super) struct TexelPlaces {
     width: u32,
     size: DVec2,
@@ -28,7 +28,7 @@ impl TexelPlaces {
             let at = corners.map(|vertex| uvs[vertex as usize].as_dvec2() * size);
             let least = at[0].min(at[1]).min(at[2]);
             let most = at[0].max(at[1]).max(at[2]);
-            // Texels whose centre may lie within; casts take what is below 0 to 0.
+            // Texels whose centre may lie within; casts clamp negative numbers to 0.
             let along = |least: f64, most: f64, side: u32| {
                 (least - 0.5).ceil() as u32..((most - 0.5).floor() + 1.0).min(f64::from(side)) as u32
             };
@@ -44,7 +44,7 @@ impl TexelPlaces {
         Self { width, size, triangles }
     }
 
-    /// Where a texel's centre lies on the mesh.
+    /// The point of the mesh at a texel's centre.
     pub(super) fn at(&self, mesh: &Mesh, uvs: &[Vec2], [x, y]: [u32; 2]) -> Option<UvPlace> {
         let triangle = self.triangles[(y * self.width + x) as usize];
         if triangle == NONE {
@@ -61,7 +61,7 @@ fn center(texel: [u32; 2]) -> DVec2 {
     DVec2::from(texel.map(|at| f64::from(at) + 0.5))
 }
 
-/// The weights of a triangle's corners at a point, where that lies on it or on its border.
+/// The barycentric weights of a point, if it lies in the triangle or on its border.
 fn weights([a, b, c]: [DVec2; 3], p: DVec2) -> Option<[f64; 3]> {
     let area = (b - a).perp_dot(c - a);
     if area == 0.0 {
@@ -69,6 +69,6 @@ fn weights([a, b, c]: [DVec2; 3], p: DVec2) -> Option<[f64; 3]> {
     }
     let of = |from: DVec2, to: DVec2| (to - from).perp_dot(p - from) / area;
     let weights = [of(b, c), of(c, a), of(a, b)];
-    // Of two triangles that share an edge one has to have a point on it, whatever the rounding.
+    // Of two triangles that share an edge, at least one must contain its points, whatever the rounding.
     weights.iter().all(|weight| *weight >= -1e-12).then_some(weights)
 }

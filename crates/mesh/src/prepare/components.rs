@@ -1,35 +1,35 @@
-//! The pieces of a mesh, and which way round they are.
+//! The connected components of a mesh, and their orientation.
 
 use bevy_math::{DVec3, Vec3};
 
 use crate::edges::Edges;
 
-/// A closed piece whose volume is a smaller fraction of the cube around it than this has no inside to speak of.
+/// A closed component whose volume is a smaller fraction of the cube around it than this counts as flat.
 const FLAT: f64 = 1e-9;
 
-/// The pieces of a mesh: triangles joined by edges that exactly two of them share.
+/// The connected components of a mesh: triangles joined by edges that exactly two of them share.
 pub(super) struct Components {
-    /// Whether each triangle has to be turned for its piece to be wound alike and, if closed, outward.
+    /// Whether each triangle has to be flipped so that its component is oriented consistently and, if closed, outward.
     pub(super) turn: Vec<bool>,
-    /// The pieces, by their first triangle.
+    /// The components, by their first triangle.
     pub(super) pieces: Vec<ConnectedPiece>,
-    /// Pairs of triangles of one piece that cannot be made to agree, as on a Möbius strip.
+    /// Pairs of adjacent triangles that cannot be oriented consistently, as on a Möbius strip.
     pub(super) conflicts: usize,
 }
 
-/// One piece.
+/// A connected component.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ConnectedPiece {
-    /// Whether every edge has two triangles and the piece has two sides.
+    /// Whether every edge has two triangles and the component is orientable.
     pub(super) closed: bool,
-    /// Whether it is closed and, wound alike, has more triangles that face in than out.
+    /// Whether it is closed and, oriented consistently, has more triangles that face in than out.
     pub(super) inward: bool,
-    /// The volume inside, if closed.
+    /// The enclosed volume, if closed.
     pub(super) volume: f64,
 }
 
 impl Components {
-    /// The pieces; `positions` are those of the points that the edges join.
+    /// The components; `positions` are those of the points that the edges join.
     pub(super) fn new(edges: &Edges, positions: impl Fn(u32) -> Vec3) -> Self {
         let neighbours = Neighbours::new(edges);
         let count = edges.triangles().len();
@@ -45,7 +45,7 @@ impl Components {
             let mut conflicts = 0;
             while let Some(&triangle) = members.get(next) {
                 next += 1;
-                for (other, alike) in neighbours.of(edges, triangle) {
+                for (other, alike) in neighbours.around(edges, triangle) {
                     let turn = components.turn[triangle as usize] == alike;
                     if !seen[other as usize] {
                         seen[other as usize] = true;
@@ -62,7 +62,7 @@ impl Components {
         components
     }
 
-    /// Decides which of its two ways round a piece gets: outward if closed, else that of most of its triangles.
+    /// Chooses the orientation of a component: outward if closed, else that of most of its triangles.
     fn finish(
         &mut self,
         edges: &Edges,
@@ -100,7 +100,7 @@ impl Components {
     }
 }
 
-/// What lies across the three sides of each triangle.
+/// The neighbours across the three sides of each triangle.
 struct Neighbours {
     /// The pass on the other side, or a mark.
     across: Vec<[u32; 3]>,
@@ -121,13 +121,13 @@ impl Neighbours {
         Self { across }
     }
 
-    /// The triangles next to this one, and whether they wind alike.
-    fn of(&self, edges: &Edges, triangle: u32) -> impl Iterator<Item = (u32, bool)> {
+    /// The adjacent triangles, and whether they have the same orientation.
+    fn around(&self, edges: &Edges, triangle: u32) -> impl Iterator<Item = (u32, bool)> {
         let passes = (3 * triangle..).zip(self.across[triangle as usize]).filter(|&(_, other)| other != NONE);
         passes.map(|(pass, other)| (other / 3, edges.is_upward(pass) != edges.is_upward(other)))
     }
 
-    /// Whether there is one triangle across each side.
+    /// Whether there is exactly one triangle across each side.
     fn is_enclosed(&self, triangle: u32) -> bool {
         self.across[triangle as usize].iter().all(|&other| other != NONE)
     }

@@ -1,4 +1,4 @@
-//! How far a mesh is from another.
+//! The distance of a mesh from another.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -12,13 +12,13 @@ use crate::triangle_tree::{TriangleCorners, TriangleTree};
 /// Bounds of a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistanceBounds {
-    /// A distance that some point has.
+    /// The distance of some point: a lower bound.
     pub least: f64,
-    /// A distance that no point passes.
+    /// A distance that no point exceeds: an upper bound.
     pub most: f64,
 }
 
-/// Triangles are cut in four at most so often.
+/// The most subdivisions of triangles.
 const CUTS: u32 = 1 << 18;
 
 impl Mesh {
@@ -26,9 +26,17 @@ impl Mesh {
     /// distance), to within `tolerance`, in the meshes' units; NaN or a negative number count as 0.
     ///
     /// The distance to one triangle is convex, so over a triangle it is greatest at a corner; the distance to a mesh
-    /// changes no faster than its point moves. Both bound it over a triangle from above, and triangles are cut in four
+    /// changes no faster than its point moves. Both bound it over a triangle from above, and triangles are subdivided
     /// where that is not close enough (as by Tang, Lee and Kim 2009, "Interactive Hausdorff distance computation for
-    /// general polygonal models"). After some hundred thousand cuts the bounds are given as they are.
+    /// general polygonal models"). After some hundred thousand subdivisions the bounds are returned as they are.
+    ///
+    /// ```
+    /// use halfway_mesh::{Icosphere, Mesh};
+    ///
+    /// let [coarse, fine] = [2, 8].map(|divisions| Mesh::from(Icosphere::new(1.0, divisions)));
+    /// let distance = fine.distance_to(&coarse, 1e-3);
+    /// assert!(distance.least > 0.05 && distance.most < 0.15);
+    /// ```
     pub fn distance_to(&self, other: &Mesh, tolerance: f64) -> DistanceBounds {
         let tolerance = tolerance.max(0.0);
         let target = TriangleTree::new(other.triangle_count() as u32, |number| other.corners_of(number));
@@ -46,7 +54,7 @@ impl Mesh {
                 cells.push(quarter);
             }
         }
-        // What is not among the cells is within the tolerance.
+        // Triangles that are not among the cells are within the tolerance.
         let most = cells.peek().map_or(0.0, |cell| cell.upper).max(least + tolerance);
         DistanceBounds { least, most }
     }
@@ -55,9 +63,9 @@ impl Mesh {
 /// A part of a triangle.
 struct SubTriangle {
     corners: TriangleCorners,
-    /// A distance that one of its points has.
+    /// The distance of one of its points.
     lower: f64,
-    /// A distance that none of its points passes.
+    /// A distance that none of its points exceeds.
     upper: f64,
     /// The number of the triangle nearest to its centre.
     nearest: u32,
@@ -79,7 +87,7 @@ impl SubTriangle {
         let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]].map(|corners| {
             let quarter = Self::new(corners, target, self.nearest);
-            // No part is further than the whole, whatever rounding says.
+            // No part is further than the whole, despite rounding.
             Self { upper: quarter.upper.min(self.upper), ..quarter }
         })
     }

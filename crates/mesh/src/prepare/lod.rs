@@ -17,16 +17,29 @@ use crate::{Bounds, Mesh};
 /// Clusters of a mesh's triangles, fine and coarse, in groups.
 ///
 /// The clusters of a group cover a part of the surface. Simplified together, they became coarser clusters, whose
-/// [`source`](LodCluster::source) the group is, and which cover the same part inside the same border. So the surface
-/// can be drawn as coarse as is good enough, part by part: see [`cut`](Self::cut).
+/// [`source`](LodCluster::source) is the group, and which cover the same part inside the same border. So each part of
+/// the surface can be drawn as coarsely as its error allows: see [`cut`](Self::cut).
+///
+/// ```
+/// use std::sync::atomic::AtomicBool;
+/// use halfway_mesh::{Mesh, UvSphere};
+///
+/// let sphere = Mesh::from(UvSphere::new(1.0, 96, 48));
+/// let levels = sphere.lod_hierarchy(&AtomicBool::new(false)).expect("it was not stopped");
+/// let triangles = |cut: &[u32]| cut.iter().map(|cluster| levels.triangles_of(*cluster).len()).sum::<usize>();
+/// let all = levels.cut(|_| false);
+/// let coarse = levels.cut(|group| group.position_error < 0.01);
+/// assert_eq!(triangles(&all), sphere.triangle_count());
+/// assert!(triangles(&coarse) < triangles(&all));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LodHierarchy {
     /// The triangles of all clusters, as numbers of the mesh's vertices.
     pub triangles: Vec<[u32; 3]>,
     /// The clusters, group by group, in the order of their triangles.
     pub clusters: Vec<LodCluster>,
-    /// The groups, the finer first: sources of a group's clusters come before it. The last holds what has no simplified
-    /// version: its errors are infinite.
+    /// The groups, finer ones first: sources of a group's clusters come before it. The last holds the clusters without
+    /// a simplified version: its errors are infinite.
     pub groups: Vec<LodGroup>,
 }
 
@@ -39,22 +52,22 @@ pub struct LodCluster {
     pub source: Option<u32>,
 }
 
-/// Clusters of a [`LodHierarchy`] that are simplified together, and how far off their simplified version is.
+/// Clusters of a [`LodHierarchy`] that are simplified together, and the error of their simplified version.
 ///
-/// The errors are estimates, not bounds: the largest deviation that a collapse was seen to make. They are no smaller
-/// than those of the sources of the group's clusters.
+/// The errors are estimates, not bounds: the largest deviation found in a collapse. They are no smaller than those of
+/// the sources of the group's clusters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LodGroup {
     /// Its clusters.
     pub clusters: Range<u32>,
-    /// How far the surface of the simplified version is off the mesh, in the mesh's units.
+    /// The distance of the simplified surface from the mesh, in the mesh's units.
     pub position_error: f32,
-    /// How coarse the shading of the simplified version is, as a length in the mesh's units: a half to three quarters of
-    /// the mean edge, or less where the change of normals and colours is hardly visible. Where it is less than a pixel,
+    /// The coarseness of the simplified version's shading, as a length in the mesh's units: a half to three quarters of
+    /// the mean edge, or less where the change of normals and colours is hardly visible. If it is less than a pixel,
     /// the picture of a rough mesh is about as good as with all triangles.
     pub shading_error: f32,
-    /// How far texture coordinates slide over the surface of the simplified version, in the mesh's units. It shows only
-    /// with images; 0 where the mesh has no coordinates.
+    /// How far texture coordinates slide over the simplified surface, in the mesh's units. Visible only with images; 0
+    /// if the mesh has no coordinates.
     pub map_error: f32,
     /// The centre of a sphere around its clusters, and so around the simplified version.
     pub center: Vec3,
@@ -63,8 +76,8 @@ pub struct LodGroup {
 }
 
 impl LodGroup {
-    /// How far off the picture of the simplified version is, as a length in the mesh's units: the largest of the errors
-    /// that show on a surface that is `lit`, and has images, or not.
+    /// The error of the simplified version's picture, as a length in the mesh's units: the largest of the errors that
+    /// are visible on a surface that is `lit`, and has images, or not.
     pub fn error(&self, lit: bool, has_images: bool) -> f32 {
         let shading = if lit { self.shading_error } else { 0.0 };
         let map = if has_images { self.map_error } else { 0.0 };
@@ -72,29 +85,29 @@ impl LodGroup {
     }
 }
 
-/// How many clusters a group has, at most.
+/// The most clusters of a group.
 const GROUP: usize = 16;
 
-/// A group has a simplified version if no more than this part of its triangles is left. The others' clusters are
+/// A group has a simplified version if at most this fraction of its triangles is left. The clusters of other groups are
 /// grouped anew.
 const LEAST_REDUCTION: f64 = 0.8;
 
-/// The owner of a place that no group has, and of one that several have.
+/// The owner of a position that no group has, and of one that several have.
 const NOBODY: u32 = u32::MAX;
 const SEVERAL: u32 = u32::MAX - 1;
 
 impl Mesh {
-    /// The levels of detail of the mesh, or `None` where `stop` has become true.
+    /// The levels of detail of the mesh, or `None` if `stop` has become true.
     ///
-    /// A mesh of up to 4096 triangles is one cluster. Vertices on open borders stay, for other meshes may share them.
-    /// Seams and creases stay closed and keep their course; a faceted mesh, which is all creases, should be
-    /// [welded](Self::welded) first. Runs on rayon's threads; the result is the same with any number of them.
+    /// A mesh of up to 4096 triangles is one cluster. Vertices on open borders stay, since other meshes may share them.
+    /// Seams and creases stay closed and in place; a faceted mesh, which is all creases, should be
+    /// [welded](Self::welded) first. Runs on rayon's threads; the result does not depend on their number.
     pub fn lod_hierarchy(&self, stop: &AtomicBool) -> Option<LodHierarchy> {
         let mut builder = Builder::new(self);
         let mut hierarchy = LodHierarchy::default();
         // Each round halves the triangles.
         hierarchy.triangles.reserve_exact(2 * self.triangle_count() + self.triangle_count() / 16);
-        // By turns about a skew axis no two rounds part along the same planes.
+        // Turns about a skew axis keep two rounds from cutting along the same planes.
         let step = Mat3::from_quat(Quat::from_xyzw(1.0, 2.0, 4.0, 10.0) * (1.0 / 11.0));
         let mut turn = Mat3::IDENTITY;
         while builder.simplify_groups(&mut hierarchy, turn, stop)? {
@@ -110,10 +123,10 @@ impl Mesh {
 }
 
 impl LodHierarchy {
-    /// The clusters to draw, by their numbers, ascending: together they cover the mesh once, without cracks.
+    /// The numbers of the clusters to draw, ascending: together they cover the mesh once, without cracks.
     ///
-    /// They are as coarse as possible where `will_do` tells for which groups the simplified version is good enough. It
-    /// is asked only where those of all sources of the group's clusters are.
+    /// They are as coarse as possible where `will_do` accepts the simplified version of a group. It is called only for
+    /// groups whose clusters' sources were all accepted.
     pub fn cut(&self, mut will_do: impl FnMut(&LodGroup) -> bool) -> Vec<u32> {
         let (mut will, mut cut) = (vec![false; self.groups.len()], Vec::new());
         for (number, group) in self.groups.iter().enumerate() {
@@ -136,7 +149,7 @@ impl LodHierarchy {
         &self.triangles[start as usize..end as usize]
     }
 
-    /// Adds a group with its clusters, whose triangles are found among these.
+    /// Adds a group with its clusters, whose triangles are ranges of `all`.
     fn add<'a>(&mut self, group: LodGroup, clusters: impl IntoIterator<Item = &'a LodCluster>, all: &[[u32; 3]]) {
         let first = self.clusters.len() as u32;
         for cluster in clusters {
@@ -183,9 +196,9 @@ impl<'a> Builder<'a> {
     }
 
     /// Does a round: groups all clusters and replaces those of each group by its simplified version, if it has one.
-    /// Returns whether any has; `None` where `stop` is true.
+    /// Returns whether any has; `None` if `stop` is true.
     ///
-    /// Groups do not depend on each other: they are simplified in parallel and added in their order.
+    /// Groups do not depend on each other: they are simplified in parallel and added in order.
     fn simplify_groups(&mut self, hierarchy: &mut LodHierarchy, turn: Mat3, stop: &AtomicBool) -> Option<bool> {
         let groups = self.groups(turn);
         let owners = self.owners(&groups);
@@ -236,7 +249,7 @@ impl<'a> Builder<'a> {
         sites.chunks(most).map(group).collect()
     }
 
-    /// For each place the number of the group that has it, [`NOBODY`] or [`SEVERAL`].
+    /// The group that owns each position, [`NOBODY`] or [`SEVERAL`].
     fn owners(&self, groups: &[Vec<&LodCluster>]) -> Vec<u32> {
         let mut owners = vec![NOBODY; self.wedges.places.len()];
         for (number, clusters) in (0..).zip(groups) {
@@ -271,7 +284,7 @@ impl<'a> Builder<'a> {
         let largest = |error: fn(&LodGroup) -> f32| sources().map(error).fold(0.0, f32::max);
         let group = LodGroup {
             clusters: 0..0,
-            // A surface shrinks again and again. Losses of shading are independent, so that their squares add up.
+            // A surface may shrink in every round. Losses of shading are independent, so that their squares add up.
             position_error: simplified.position_error as f32 + largest(|group| group.position_error),
             shading_error: root_of_squares(simplified.shading_error as f32, largest(|group| group.shading_error)),
             map_error: simplified.map_error as f32 + largest(|group| group.map_error),

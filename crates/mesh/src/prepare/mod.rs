@@ -1,5 +1,5 @@
-//! What is done to a mesh before it is drawn: welding, repair, a look over it, its distance from another,
-//! simplification and levels of detail.
+//! Preparation of a mesh before it is drawn: welding, repair, a report, the distance from another mesh, simplification
+//! and levels of detail.
 
 mod components;
 mod distance;
@@ -33,8 +33,8 @@ impl Mesh {
         self.triangles().map(|triangle| triangle.map(|vertex| self.positions()[vertex as usize]))
     }
 
-    /// The mesh with these triangles, its vertices in the order in which they are used first and the unused ones left
-    /// out: the GPU then fetches them nearly in a row.
+    /// The mesh with these triangles, its vertices in the order of first use and the unused ones dropped: the GPU then
+    /// fetches them nearly in sequence.
     pub(crate) fn in_order_of_use(&self, indices: &[u32]) -> Self {
         let used = Numbering::new(indices.len(), |corner| [indices[corner]]);
         let vertices: Vec<u32> = used.firsts.iter().map(|&corner| indices[corner as usize]).collect();

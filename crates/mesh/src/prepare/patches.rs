@@ -1,4 +1,4 @@
-//! Patches: runs of triangles that lie close together and face alike.
+//! Patches: runs of triangles that lie close together and face in similar directions.
 
 use std::ops::Range;
 
@@ -6,12 +6,12 @@ use bevy_math::Vec3;
 
 use crate::Mesh;
 
-/// From this number of patches of triangles down, they are also parted by the way they face: of more than these,
-/// borders between what faces apart would run all over the mesh.
+/// Up to this number of patches, triangles are also separated by the direction they face: with more, borders between
+/// directions would run all over the mesh.
 const PARTED_BY_FACING: usize = 16;
 
-/// Normals whose parts along an axis differ by more than this are parted there rather than by place: those of the sides
-/// of a thin sheet or of an edge, but not those of what is only a little uneven.
+/// Normals whose components along an axis differ by more than this are separated by direction rather than by position:
+/// those of the sides of a thin sheet or of an edge, but not those of a slightly uneven surface.
 const FACING_APART: f32 = 0.6;
 
 /// A triangle among others, or a cluster of triangles.
@@ -19,27 +19,28 @@ const FACING_APART: f32 = 0.6;
 pub(super) struct Site {
     /// Its centre.
     pub(super) place: Vec3,
-    /// The mean normal of its corners: those of its own plane would part what is only noisy. 0 to part by place alone.
+    /// The mean normal of its corners: the face normal would separate triangles of a noisy surface. 0 to separate by
+    /// position alone.
     pub(super) facing: Vec3,
     pub(super) number: u32,
-    /// What it is parted by: a coordinate, as a number of the same order. Anything at first.
+    /// The sort key: a coordinate, as an integer of the same order. Unset at first.
     pub(super) key: u32,
 }
 
 /// A mesh of up to this many triangles is one patch: cutting it would cost more draws than it saves.
 const WHOLE: usize = 4096;
 
-/// How many triangles a patch of a larger mesh has at most.
+/// The most triangles in a patch of a larger mesh.
 const PATCH: usize = 64;
 
 impl Mesh {
-    /// How many triangles a patch of the mesh has at most: all, up to 4096, and else 64.
+    /// The most triangles in a patch of the mesh: all of them, up to 4096, else 64.
     pub fn triangles_of_a_patch(&self) -> usize {
         if self.triangle_count() <= WHOLE { WHOLE } else { PATCH }
     }
 
-    /// Puts triangles of the mesh in an order in which neighbours in the list lie close together and face alike, and
-    /// cuts them into patches of up to `most` triangles (at least 1), all but one of them full. Within a patch they
+    /// Sorts triangles of the mesh so that neighbours in the list lie close together and face in similar directions,
+    /// and cuts them into patches of up to `most` triangles (at least 1), all but one of them full. Within a patch they
     /// keep their order.
     ///
     /// Triangles are halved across the longest side of the box around their centres until a patch is left, as in a k-d
@@ -64,7 +65,7 @@ impl Mesh {
     }
 }
 
-/// Puts triangles in the order of their sites, circle by circle of those that take each other's place.
+/// Sorts triangles in the order of their sites, following the cycles of the permutation.
 fn put_in_order(triangles: &mut [[u32; 3]], sites: &mut [Site]) {
     for first in 0..sites.len() {
         let (mut at, moved) = (first, triangles[first]);
@@ -80,10 +81,10 @@ fn put_in_order(triangles: &mut [[u32; 3]], sites: &mut [Site]) {
     }
 }
 
-/// More triangles than this are parted on two threads.
+/// More triangles than this are halved on two threads.
 const WORTH_A_THREAD: usize = 1 << 14;
 
-/// Puts triangles in an order in which each `most` are a patch.
+/// Sorts triangles so that each run of `most` is a patch.
 pub(super) fn part(sites: &mut [Site], most: usize) {
     if sites.len() <= most {
         sites.sort_unstable_by_key(|site| site.number);
@@ -116,7 +117,7 @@ pub(super) fn part(sites: &mut [Site], most: usize) {
     }
 }
 
-/// A number in whose order numbers are by [`f32::total_cmp`].
+/// An integer whose order is that of the numbers by [`f32::total_cmp`].
 fn ordered(x: f32) -> u32 {
     let bits = x.to_bits();
     if bits >> 31 == 0 { bits | 1 << 31 } else { !bits }

@@ -1,4 +1,4 @@
-//! Repair: triangles that show nothing are left out, the others wound alike and outward.
+//! Repair: drops triangles that are invisible, orients the others consistently and outward.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use crate::edges::Edges;
 use crate::numbering::Numbering;
 use crate::{Mesh, MeshError, face_normal};
 
-/// What [`Mesh::repaired`] did, and what it could not do. Shown as text it lists what there is, or `nothing`.
+/// The changes made by [`Mesh::repaired`], and the faults that remain. `Display` lists the counts, or `nothing`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RepairReport {
     /// Degenerate triangles that were left out.
@@ -16,11 +16,11 @@ pub struct RepairReport {
     pub removed_duplicate: usize,
     /// Vertices left out because no triangle is left that uses them.
     pub removed_vertices: usize,
-    /// Triangles turned over.
+    /// Triangles flipped.
     pub turned: usize,
-    /// Edges where the two triangles cannot be wound alike, because their piece has one side only.
+    /// Edges whose two triangles cannot be oriented consistently, because their component is not orientable.
     pub conflicts: usize,
-    /// Triangles whose front is away from the mean of their vertex normals after all this.
+    /// Triangles whose front faces away from the mean of their vertex normals after the repair.
     pub against_normals: usize,
 }
 
@@ -41,19 +41,32 @@ impl fmt::Display for RepairReport {
 }
 
 impl Mesh {
-    /// The mesh without degenerate and duplicate triangles and unused vertices, the triangles of each piece wound
-    /// alike.
+    /// The mesh without degenerate and duplicate triangles and unused vertices, with each connected component oriented
+    /// consistently.
     ///
-    /// A piece is what edges of exactly two triangles hold together, edges being told apart by the positions of their
-    /// ends. A closed piece is turned outward by the sign of its volume, also one that lies inside another; an open one
-    /// keeps the winding of most of its triangles. Normals stay as they are: where the report counts triangles against
-    /// them, [`with_normals`](Self::with_normals) makes new ones.
+    /// Components are joined by edges of exactly two triangles; edges are told apart by the positions of their ends. A
+    /// closed component is turned outward by the sign of its volume, also if it lies inside another; an open one keeps
+    /// the winding of most of its triangles. Normals stay as they are: where the report counts triangles against them,
+    /// [`with_normals`](Self::with_normals) makes new ones.
+    ///
+    /// ```
+    /// use bevy_math::Vec3;
+    /// use halfway_mesh::Mesh;
+    ///
+    /// // Two triangles of opposite winding, and a degenerate one.
+    /// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
+    /// let mesh = Mesh::new(corners, vec![0, 1, 2, 1, 2, 3, 0, 0, 1])?;
+    /// let (repaired, report) = mesh.repaired()?;
+    /// assert_eq!((report.removed_degenerate, report.turned), (1, 1));
+    /// assert_eq!(repaired.report().problems.misoriented_edges, 0);
+    /// # Ok::<(), halfway_mesh::MeshError>(())
+    /// ```
     ///
     /// # Errors
     /// Every triangle is degenerate.
     pub fn repaired(&self) -> Result<(Self, RepairReport), MeshError> {
         let mut report = RepairReport::default();
-        let groups = Numbering::of_positions(self.positions());
+        let groups = Numbering::from_positions(self.positions());
         let sound = self.sound_triangles(&groups, &mut report);
         if sound.is_empty() {
             return Err(MeshError::NoTriangles);

@@ -1,4 +1,4 @@
-//! A look over a mesh.
+//! A report on a mesh.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use super::components::Components;
 use crate::edges::Edges;
 use crate::{Bounds, Mesh, Problems};
 
-/// What a mesh is like. Shown as text, it is a line for each group of figures, without a line break at the end.
+/// The figures and problems of a mesh. `Display` writes a line for each group of figures, without a final line break.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshReport {
     /// The number of triangles.
@@ -25,26 +25,35 @@ pub struct MeshReport {
     pub edge_lengths: [f64; 3],
     /// The area of all triangles.
     pub area: f64,
-    /// The volume inside the closed pieces, each for itself.
+    /// The volume inside the closed components, each added separately.
     pub volume: f64,
-    /// The pieces that edges of exactly two triangles hold together.
+    /// The connected components: triangles joined by edges of exactly two triangles.
     pub pieces: usize,
-    /// The pieces that are closed.
+    /// The components that are closed.
     pub closed: usize,
-    /// The closed pieces that are inside out.
+    /// The closed components that are inside out.
     pub inward: usize,
-    /// Triangles that [`Mesh::repaired`] would turn over.
+    /// Triangles that [`Mesh::repaired`] would flip.
     pub to_turn: usize,
-    /// Edges whose triangles cannot be wound alike, because their piece has one side only.
+    /// Edges whose two triangles cannot be oriented consistently, because their component is not orientable.
     pub conflicts: usize,
-    /// Triangles whose front is away from the mean of their vertex normals.
+    /// Triangles whose front faces away from the mean of their vertex normals.
     pub against_normals: usize,
-    /// What is wrong with it.
+    /// The problems found.
     pub problems: Problems,
 }
 
 impl Mesh {
-    /// Looks the mesh over. Takes time and memory in proportion to its size.
+    /// Measures and checks the mesh. Takes time and memory in proportion to its size.
+    ///
+    /// ```
+    /// use halfway_mesh::{Mesh, UvSphere};
+    ///
+    /// let report = Mesh::from(UvSphere::new(1.0, 32, 16)).report();
+    /// assert_eq!((report.pieces, report.closed, report.inward), (1, 1, 0));
+    /// assert!((report.area - 4.0 * std::f64::consts::PI).abs() < 0.2);
+    /// println!("{report}");
+    /// ```
     pub fn report(&self) -> MeshReport {
         let (groups, edges) = self.position_edges();
         let position = |point: u32| self.positions()[groups.firsts[point as usize] as usize];

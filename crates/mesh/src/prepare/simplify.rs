@@ -18,21 +18,21 @@ use super::weld::places;
 use crate::numbering::Numbering;
 use crate::{Bounds, Mesh};
 
-/// The cost of the squared distance that a vertex moves. It decides where little else does, as in planes, and keeps
-/// triangles round there. Up to a tenth changes no picture.
+/// The weight of the squared distance that a vertex moves. It decides where little else does, as in planes, and keeps
+/// triangles well shaped there. Values up to a tenth change no picture.
 const MOVE_WEIGHT: f64 = 1e-3;
 
-/// The cost of the squared distance that texture coordinates slide. It is low because those of round surfaces slide
-/// everywhere, which would keep vertices where the shape does not need them: with 1, a sphere of 200 triangles is twice
-/// as far off.
+/// The weight of the squared distance that texture coordinates slide. It is low because those of round surfaces slide
+/// everywhere, which would keep vertices where the shape does not need them: with 1, a sphere of 200 triangles has
+/// twice the error.
 const MAP_WEIGHT: f64 = 0.05;
 
-/// A collapse may turn a triangle by no more than the angle of this cosine.
+/// A collapse may rotate the normal of a triangle by at most the angle of this cosine.
 const LEAST_COSINE: f64 = 0.2;
 
 /// The length that a change of a normal by 1 (the difference of unit vectors) counts as, in edges of the simplified
 /// mesh. Found by trial: with 1 to 30, pictures of scans with half of their triangles are equally good; less is worse,
-/// and more spoils the shape where few triangles are left.
+/// and more spoils the shape if few triangles are left.
 const ATTRIBUTE_WEIGHT: f64 = 2.0;
 
 /// The least change of a normal that is visible: about two steps of 1/255 in a highlight of exponent 32.
@@ -43,8 +43,8 @@ const VISIBLE: f64 = 0.007;
 /// them, and the RMS error of one sample a pixel from the average over the pixel grows by up to 15 %.
 const EDGE_WEIGHT: [f64; 2] = [0.48, 0.75];
 
-/// Normals and colours are noise where collapses lose this part of their difference along an edge, or more. Of the
-/// bunny they lose a sixth to a third, of a mesh with a random number at each vertex a half to all.
+/// Normals and colours are noise if collapses lose this fraction of their difference along an edge, or more. The bunny
+/// loses a sixth to a third, a mesh with a random number at each vertex a half to all.
 const NOISE: f64 = 0.4;
 
 /// A vertex with more triangles than this stays, such as the pole of a fine sphere: the time that it takes grows with
@@ -54,18 +54,18 @@ const MOST_AROUND: usize = 96;
 /// Attributes are weighted as if no less than one triangle in this many were left.
 const MOST_REDUCTION: usize = 16;
 
-/// Triangles with an area below this part of the square of their longest side tell nothing of attributes: their
+/// Triangles with an area below this fraction of the square of their longest side do not count for attributes: their
 /// gradients are rounding errors.
 const NEEDLE: f64 = 1e-4;
 
-/// Distances below this part of the extent of the triangles are rounding errors.
+/// Distances below this fraction of the extent of the triangles are rounding errors.
 const ROUNDING: f64 = 1e-6;
 
 /// Groups the vertices of a mesh that the simplifier treats as one.
 pub(super) struct Wedges {
     /// The first vertex at the position of each vertex.
     pub(super) places: Vec<u32>,
-    /// The first vertex that is equal to each vertex in everything; empty if all differ.
+    /// The first vertex that is equal to each vertex in all attributes; empty if all differ.
     equals: Vec<u32>,
 }
 
@@ -124,7 +124,7 @@ impl Quadric {
         p.dot(ap) + 2.0 * self.b.dot(p) + self.c
     }
 
-    /// The weighted mean; 0 of nothing. Rounding may have taken the sum below 0.
+    /// The weighted mean; 0 of nothing. Rounding may have made the sum negative.
     fn mean(&self, sum: f64) -> f64 {
         if self.weight > 0.0 { sum.max(0.0) / self.weight } else { 0.0 }
     }
@@ -133,8 +133,8 @@ impl Quadric {
 /// Some attributes of the wedges, as lengths, and quadrics of their deviations.
 ///
 /// In the plane of a triangle an attribute is g·p + d at a point p. Over the triangles around a wedge, weighted by
-/// their areas w, the squared deviations of a value s from that add up to s²·Σw − 2s·(p·Σw·g + Σw·d) + Σw·(g·p + d)²; the
-/// last term is a quadric.
+/// their areas w, the squared deviations of a value s from that add up to s²·Σw − 2s·(p·Σw·g + Σw·d) + Σw·(g·p + d)²;
+/// the last term is a quadric.
 #[derive(Default)]
 struct Attributes {
     /// The number of attributes of a wedge.
@@ -220,8 +220,7 @@ enum Freedom {
 
 const GONE: u32 = u32::MAX;
 
-/// A collapse in the queue: the bits of its cost, the place that goes, the one that it goes to, and the version of the
-/// first.
+/// A collapse in the queue: the bits of its cost, the place that is removed, its target, and the version of the first.
 type Candidate = Reverse<(u32, u32, u32, u32)>;
 
 /// Some triangles of a mesh while edges collapse. Lengths are divided by the [`unit`](Self::unit).
@@ -265,8 +264,8 @@ pub(super) struct Simplified {
     pub(super) triangles: Vec<[u32; 3]>,
     /// The largest of all collapses, in units of the mesh: the RMS distance of the vertex from the planes around it.
     pub(super) position_error: f64,
-    /// The mean edge, in units of the mesh, times its [weight](EDGE_WEIGHT), and times the largest change of normals and
-    /// colours where that is not [`VISIBLE`].
+    /// The mean edge, in units of the mesh, times its [weight](EDGE_WEIGHT), and times the largest change of normals
+    /// and colours where that is not [`VISIBLE`].
     pub(super) shading_error: f64,
     /// The largest distance that texture coordinates slide over the surface, in units of the mesh.
     pub(super) map_error: f64,
@@ -706,10 +705,10 @@ fn edge_length(area: f64, triangles: usize) -> f64 {
     (area * 4.0 / (3.0_f64.sqrt() * triangles.max(1) as f64)).sqrt()
 }
 
-/// A coarser mesh in the place of a fine one.
+/// A coarser mesh with its error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimplifiedMesh {
-    /// The mesh; its vertices are some of the fine mesh's, with all that they have.
+    /// The mesh; its vertices are some of the fine mesh's, with all their attributes.
     pub mesh: Mesh,
     /// No point of either mesh is further from the other than this, in their units: the larger of both
     /// [distances](Mesh::distance_to), known to a fifth of the simplifier's estimate, to a fifth of the error that was
@@ -717,26 +716,34 @@ pub struct SimplifiedMesh {
     pub error: f64,
 }
 
-/// How often a mesh that came out too far off is tried again.
+/// The most attempts at a mesh with too large an error.
 const TRIES: u32 = 4;
 
-/// The error is known to this part of the simplifier's estimate or of the error allowed, or to the second part of half
-/// the longest edge of the box around the mesh.
+/// The error is known to this fraction of the simplifier's estimate or of the error allowed, or to the second fraction
+/// of half the longest edge of the box around the mesh.
 const ERROR_TOLERANCE: [f64; 2] = [0.2, 1e-4];
 
 impl Mesh {
-    /// The mesh with about as many triangles as asked for, or more, if fewer would be further off than `max_error` (in
-    /// its units) or change its topology. An error too small to be told from none is allowed.
+    /// The mesh with about as many triangles as asked for, or more, if fewer would exceed `max_error` (in its units) or
+    /// change its topology. Errors below the accuracy of the measurement are allowed.
     ///
     /// Edges collapse, the cheapest first: by the distance from the planes around (Garland and Heckbert 1997) and by
-    /// what is lost of normals, texture coordinates and colours (Hoppe 1999). Open borders keep their course as far as
-    /// the error allows. Seams between vertices at one position stay closed; faceted meshes, which are all seams,
-    /// should be [welded](Self::welded) first.
+    /// the change of normals, texture coordinates and colours (Hoppe 1999). Open borders stay in place as far as the
+    /// error allows. Seams between vertices at one position stay closed; faceted meshes, which are all seams, should be
+    /// [welded](Self::welded) first.
+    ///
+    /// ```
+    /// use halfway_mesh::{Mesh, UvSphere};
+    ///
+    /// let sphere = Mesh::from(UvSphere::new(1.0, 64, 32));
+    /// let coarse = sphere.simplified(500, 0.05);
+    /// assert!(coarse.mesh.triangle_count() < 600 && coarse.error <= 0.05);
+    /// ```
     pub fn simplified(&self, triangles: usize, max_error: f64) -> SimplifiedMesh {
         let wedges = Wedges::new(self);
         let all: Vec<[u32; 3]> = self.triangles().collect();
         let size = self.bounds().max.as_dvec3() - self.bounds().min.as_dvec3();
-        // NaN asks for nothing.
+        // NaN allows no error.
         let max_error = max_error.max(0.0);
         let mut limit = max_error;
         for _ in 0..TRIES {
@@ -750,11 +757,11 @@ impl Mesh {
             let allowed = if max_error.is_finite() { max_error } else { 0.0 };
             let tolerance = (ERROR_TOLERANCE[0] * position_error.max(allowed)).max(rounding);
             let error = self.distance_to(&mesh, tolerance).most.max(mesh.distance_to(self, tolerance).most);
-            // Rounding may take an error of none above the tolerance.
+            // Rounding may take an error of 0 above the tolerance.
             if error <= max_error.max(1.001 * tolerance) {
                 return SimplifiedMesh { mesh, error };
             }
-            // The simplifier knows a mean of squares only; a little less than what would do.
+            // The simplifier knows a mean of squares only; try a little less than the linear estimate.
             limit *= 0.9 * max_error / error;
         }
         SimplifiedMesh { mesh: self.clone(), error: 0.0 }

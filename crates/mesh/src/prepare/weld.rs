@@ -1,4 +1,4 @@
-//! Welding: vertices that are one in all but number become one.
+//! Welding: merges vertices that are equal, or nearly so.
 
 use std::collections::HashMap;
 
@@ -7,16 +7,17 @@ use bevy_math::Vec3;
 use crate::numbering::Numbering;
 use crate::{Mesh, MeshError};
 
-/// Which vertices [`Mesh::welded`] takes for one. By default those that are equal in everything.
+/// The criterion by which [`Mesh::welded`] merges vertices. By default, all attributes must be equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weld {
-    /// How far positions may lie apart, in the mesh's units; 0, a negative number and NaN ask for equal ones.
+    /// The distance up to which positions are merged, in the mesh's units; 0, a negative number and NaN require equal
+    /// ones.
     ///
-    /// A vertex joins the first that lies so near and joined none itself, so that rows of close vertices do not run
-    /// together.
+    /// A vertex joins the first one within the distance that has not joined another, so that rows of close vertices do
+    /// not run together.
     pub distance: f32,
     /// The step to which normals, texture coordinates, colours and tangents are rounded before they are compared: 0
-    /// asks for equal ones, `None` does not look at them.
+    /// requires equal ones, `None` ignores them.
     pub attributes: Option<f32>,
 }
 
@@ -27,29 +28,39 @@ impl Default for Weld {
 }
 
 impl Weld {
-    /// Vertices no further apart than this, whatever else they have.
+    /// Merges vertices up to this distance, whatever their attributes.
     pub fn positions(distance: f32) -> Self {
         Self { distance, attributes: None }
     }
 }
 
-/// What [`Mesh::welded`] did.
+/// The changes made by [`Mesh::welded`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WeldReport {
-    /// Vertices that became one with an earlier one.
+    /// Vertices merged with an earlier one.
     pub merged_vertices: usize,
-    /// Triangles left out because two of their corners became one position.
+    /// Triangles dropped because two of their corners became one position.
     pub collapsed_triangles: usize,
 }
 
-/// The words of a vertex: its place, then normal, texture coordinates, colour and tangent.
+/// The words of a vertex: its position, then normal, texture coordinates, colour and tangent.
 type VertexKey = [u32; 16];
 
 impl Mesh {
-    /// The mesh with vertices that `weld` takes for one made one, and without the triangles that this collapses.
+    /// The mesh with equal vertices merged by `weld`, and without the triangles that this collapses.
     ///
-    /// The first of the welded vertices stays. Where attributes are not looked at it takes the mean of their normals,
-    /// unless that vanishes, and tangents are dropped; the other attributes stay its own.
+    /// The first of the merged vertices stays. If attributes are ignored it takes the mean of their normals, unless
+    /// that vanishes, and tangents are dropped; its other attributes stay.
+    ///
+    /// ```
+    /// use halfway_mesh::{Cuboid, Mesh, Weld};
+    ///
+    /// // Three vertices at each corner, one for each side.
+    /// let cube = Mesh::from(Cuboid::default());
+    /// let (welded, report) = cube.welded(Weld::positions(0.0))?;
+    /// assert_eq!((welded.positions().len(), report.merged_vertices), (8, 16));
+    /// # Ok::<(), halfway_mesh::MeshError>(())
+    /// ```
     ///
     /// # Errors
     /// Every triangle collapses.
@@ -85,7 +96,7 @@ impl Mesh {
         Ok((mesh, report))
     }
 
-    /// Numbers the vertices that are equal in everything; `places` are those of their positions.
+    /// Numbers the vertices that are equal in all attributes; `places` are those of their positions.
     pub(crate) fn identical_vertices(&self, places: &[u32]) -> Numbering {
         Numbering::new(places.len(), |vertex| self.vertex_key(vertex, places, |x| (x + 0.0).to_bits()))
     }
@@ -120,14 +131,14 @@ impl Mesh {
     }
 }
 
-/// For each vertex the one whose place it takes: the first within the distance that took no other's place.
+/// The vertex that each vertex is merged with: the first within the distance that was not merged itself.
 pub(super) fn places(positions: &[Vec3], distance: f32) -> Vec<u32> {
-    let exact = Numbering::of_positions(positions);
+    let exact = Numbering::from_positions(positions);
     let mut owners = exact.firsts.clone();
     if distance > 0.0 {
         let distance = f64::from(distance);
         // Cells four times as wide as the distance, by the bits of their whole numbers, which may be too large for an
-        // integer. A cell holds few owners: they lie further apart than a quarter of it.
+        // integer. A cell holds few targets: they lie further apart than a quarter of it.
         let width = 4.0 * distance;
         let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
         for owner in &mut owners {
@@ -136,7 +147,7 @@ pub(super) fn places(positions: &[Vec3], distance: f32) -> Vec<u32> {
             let [low, high] = [-distance, distance].map(|reach| ((p + reach) / width).floor());
             let near = (0..8).find_map(|i| {
                 let is_high = bevy_math::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0);
-                // Where both are one cell, it is looked at once.
+                // If both are one cell, it is searched once.
                 if (is_high & low.cmpeq(high)).any() {
                     return None;
                 }

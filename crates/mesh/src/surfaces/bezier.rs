@@ -9,17 +9,30 @@ use super::{Parameter, SurfaceError, check_coordinates};
 /// The surface is Σᵢ Σⱼ Bᵢ(u) Bⱼ(v) pᵢⱼ with Bernstein's polynomials of degree one less than there are rows and
 /// columns. Its outward side is that of ∂p/∂v × ∂p/∂u: seen from there with the rows running right, the first row is on
 /// top.
+///
+/// ```
+/// use bevy_math::DVec3;
+/// use halfway_mesh::{BezierPatch, ParametricSurface, Tessellation};
+///
+/// // Two rows of three points: a sheet that is bent upward in the middle.
+/// let rows = [0.0, 1.0].map(|z| [1.0, 0.5, 0.0].map(|x| DVec3::new(x, if x == 0.5 { 1.0 } else { 0.0 }, z)));
+/// let patch = BezierPatch::new(3, rows.concat())?;
+/// assert_eq!(patch.position(0.5.into(), 0.5.into()), DVec3::new(0.5, 0.5, 0.5));
+/// let mesh = patch.mesh(Tessellation::Count { rows: 1, columns: 16 })?;
+/// assert_eq!(mesh.triangle_count(), 32);
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct BezierPatch {
     columns: usize,
     points: Vec<DVec3>,
 }
 
-/// One weight for each row, or each column; what is beyond them is not used.
+/// One weight for each row, or each column; those beyond the last are not used.
 type BasisValues = [f64; BezierPatch::MAX_DEGREE + 1];
 
-/// Below this fraction of the largest product of tangents, their cross product counts as 0. The figures of a patch are
-/// rounded to 2⁻⁵³, a hundred of which are allowed for.
+/// Below this fraction of the largest product of tangents, their cross product counts as 0. The coordinates of a patch
+/// are rounded to 2⁻⁵³, a hundred of which are allowed for.
 const VANISHED: f64 = 1e-14;
 
 impl BezierPatch {
@@ -83,7 +96,7 @@ impl BezierPatch {
         self.columns
     }
 
-    /// The patch whose control points are those of this one, moved. For an affine map it is this patch, moved.
+    /// The patch with its control points moved. For an affine map it is this patch, moved.
     #[must_use]
     pub fn mapped(&self, to_from: impl Fn(DVec3) -> DVec3) -> Self {
         Self { columns: self.columns, points: self.points.iter().map(|&p| to_from(p)).collect() }

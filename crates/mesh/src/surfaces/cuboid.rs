@@ -8,6 +8,14 @@ use crate::Mesh;
 /// A box with edges along the axes, centred on the origin.
 ///
 /// Each of its six faces has four vertices of its own, two triangles, and the whole texture, upright on the sides.
+///
+/// ```
+/// use halfway_mesh::{Cuboid, Mesh};
+///
+/// let brick = Mesh::from(Cuboid::new(2.0, 0.5, 1.0));
+/// assert_eq!((brick.positions().len(), brick.triangle_count()), (24, 12));
+/// assert!((brick.report().volume - 1.0).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid {
     /// The lengths of the edges along x, y and z, each 1e-30 … 1e30; 1 by default.
@@ -26,10 +34,10 @@ impl Cuboid {
         Self { size: Vec3::new(x, y, z) }
     }
 
-    /// Whether the lengths are in their range.
+    /// Checks the ranges of the lengths.
     ///
     /// # Errors
-    /// The first length that is not.
+    /// Names the first length out of range.
     pub fn validate(&self) -> Result<(), SurfaceError> {
         self.fields().iter().try_for_each(SurfaceField::check)
     }
@@ -40,7 +48,7 @@ impl Cuboid {
     }
 }
 
-/// Each face by its normal and the way the texture's u runs; its v runs along u × n, which is down on the sides.
+/// Each face by its normal and the direction of the texture's u; its v runs along u × n, which is down on the sides.
 const FACES: [(Vec3, Vec3); 6] = [
     (Vec3::X, Vec3::NEG_Z),
     (Vec3::NEG_X, Vec3::Z),
@@ -51,8 +59,7 @@ const FACES: [(Vec3, Vec3); 6] = [
 ];
 
 impl From<Cuboid> for Mesh {
-    /// Lengths out of range are taken at their nearest value in range, with a warning in the log; see
-    /// [`Cuboid::validate`].
+    /// Lengths out of range are clamped, with a warning in the log; see [`Cuboid::validate`].
     fn from(cuboid: Cuboid) -> Self {
         let half = Vec3::from_array(cuboid.fields().map(|field| field.nearest() as f32)) * 0.5;
         let corners = [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];

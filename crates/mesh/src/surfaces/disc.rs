@@ -4,9 +4,18 @@ use bevy_math::DVec3;
 
 use super::{SurfaceError, check_coordinates};
 
-/// A flat disc.
+/// A flat disc, on its own or as a cap of another surface.
 ///
 /// u runs from the middle to the rim, v around: where it faces along the Y axis from +X, toward +Z if it faces up.
+///
+/// ```
+/// use bevy_math::DVec3;
+/// use halfway_mesh::{Disc, ParametricSurface, Tessellation};
+///
+/// let disc = Disc::new(DVec3::ZERO, DVec3::Y, 2.0)?.mesh(Tessellation::Count { rows: 1, columns: 64 })?;
+/// assert!((disc.report().area - 4.0 * std::f64::consts::PI).abs() < 0.03);
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
     center: DVec3,
@@ -15,7 +24,7 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// The disc of this middle and radius that faces the way of `normal`, which may have any length but 0.
+    /// The disc about `center` that faces along `normal`, which may have any length but 0.
     ///
     /// # Errors
     /// A coordinate of the middle that is not from −1e30 to 1e30, a radius that is not from 1e-30 to 1e30, or a normal
@@ -34,7 +43,7 @@ impl Disc {
         Ok(Self::at(center, normal, radius))
     }
 
-    /// Takes what is known to be good; the normal has unit length.
+    /// From values that are known to be valid; the normal has unit length.
     pub(super) fn at(center: DVec3, normal: DVec3, radius: f64) -> Self {
         Self { center, normal, radius }
     }

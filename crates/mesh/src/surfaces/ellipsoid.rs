@@ -9,6 +9,15 @@ use super::{Parameter, ParametricSurface, Quadric, SurfaceError, SurfacePiece, S
 ///
 /// u runs from the pole at +Y to that at −Y, v around from +X toward +Z: the point is (a sin θ cos φ, b cos θ,
 /// c sin θ sin φ) with θ = πu and φ = 2πv.
+///
+/// ```
+/// use bevy_math::Vec3;
+/// use halfway_mesh::{Ellipsoid, ParametricSurface, Tessellation};
+///
+/// let egg = Ellipsoid { radii: Vec3::new(1.0, 1.5, 1.0) }.mesh(Tessellation::ChordError(0.01))?;
+/// assert_eq!(egg.report().closed, 1);
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipsoid {
     /// a, b and c, each 1e-30 … 1e30.
@@ -47,7 +56,7 @@ impl ParametricSurface for Ellipsoid {
     }
 }
 
-/// As the [`Ellipsoid`] of three equal radii. The counts of the sphere itself matter to `Mesh::from` alone.
+/// As the [`Ellipsoid`] of three equal radii. The sphere's own counts are used by `Mesh::from` only.
 impl ParametricSurface for UvSphere {
     fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint {
         Ellipsoid { radii: Vec3::splat(self.radius) }.at(u, v)

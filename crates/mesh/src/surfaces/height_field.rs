@@ -12,9 +12,19 @@ use super::{
 ///
 /// Samples lie row by row from −z to +z, in a row from −x to +x. Between them the surface follows Catmull–Rom splines
 /// in both directions (E. Catmull and R. Rom, "A class of local interpolating splines", 1974): it passes through every
-/// sample, and its normals are continuous. Beyond the border it is taken to go on straight.
+/// sample, and its normals are continuous. Beyond the border it continues linearly.
 ///
 /// u runs from −z to +z, v from +x to −x.
+///
+/// ```
+/// use halfway_mesh::{HeightField, ParametricSurface, Tessellation};
+///
+/// let heights = vec![0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+/// let hill = HeightField::new(10.0, 10.0, 3, heights)?;
+/// let mesh = hill.mesh(Tessellation::Count { rows: 16, columns: 16 })?;
+/// assert_eq!(mesh.bounds().max.y, 1.0);
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeightField {
     size: DVec2,
@@ -22,14 +32,14 @@ pub struct HeightField {
     heights: Vec<f32>,
 }
 
-/// Cells beyond which a field is not taken for a [`Surface`](super::Surface): each is a patch of 16 points of its own.
+/// A field of more cells is not made into a [`Surface`](super::Surface): each cell is a patch of 16 points.
 const MOST_PIECES: usize = 1 << 16;
 
-/// As many as a mesh has.
+/// As many rows as a mesh may have.
 const MOST_ROWS: usize = Tessellation::MAX_ROWS as usize + 1;
 
 impl HeightField {
-    /// The field of these samples, `columns` in a row, over a rectangle of the lengths `x` and `z`.
+    /// The field of these samples, `columns` in a row, over a rectangle of lengths `x` and `z`.
     ///
     /// # Errors
     /// A length out of 1e-30 … 1e30 or more than 10⁵ times the other; fewer than two rows or columns, more than 2049
@@ -59,7 +69,7 @@ impl HeightField {
         [self.rows() - 1, self.columns - 1]
     }
 
-    /// The height in a row from −z and a column from +x; straight on where that is one beyond the border.
+    /// The height in a row from −z and a column from +x; extrapolated linearly one step beyond the border.
     fn height(&self, row: isize, column: isize) -> f64 {
         let beyond = |at: isize, count: usize| match at {
             -1 => Some((0, 1)),
@@ -110,7 +120,7 @@ impl ParametricSurface for HeightField {
         self.cells().map(|count| count as u32)
     }
 
-    /// `None` for more than 65536 cells as well.
+    /// Also `None` for more than 65,536 cells.
     fn pieces(&self) -> Option<Vec<SurfacePiece>> {
         let [rows, columns] = self.cells();
         let all = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));

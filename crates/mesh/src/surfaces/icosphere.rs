@@ -7,10 +7,19 @@ use bevy_math::{DVec3, Vec3};
 use super::{Quadric, SurfaceError, SurfaceField};
 use crate::Mesh;
 
-/// A sphere about the origin, from an icosahedron whose faces are cut into `divisions`² triangles each and blown up.
+/// A sphere about the origin, from an icosahedron whose faces are subdivided into `divisions`² triangles each and
+/// projected onto the sphere.
 ///
 /// Its triangles are of nearly equal size and shape, unlike those of a [`UvSphere`](super::UvSphere); it has 20
 /// `divisions`² of them and 10 `divisions`² + 2 vertices, all shared. It has no texture coordinates.
+///
+/// ```
+/// use halfway_mesh::{Icosphere, Mesh};
+///
+/// let sphere = Mesh::from(Icosphere::new(1.0, 4));
+/// assert_eq!((sphere.triangle_count(), sphere.positions().len()), (320, 162));
+/// assert!(Icosphere::for_chord_error(1.0, 0.001).divisions > 8);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Icosphere {
     /// The radius, 1e-30 … 1e30; 1 by default.
@@ -63,7 +72,7 @@ impl Icosphere {
     }
 
     /// The coarsest sphere of this radius whose facets are nowhere further than `error` from the true one, both in the
-    /// same unit; the finest there is where none is as near.
+    /// same unit; the finest one if none is as accurate.
     pub fn for_chord_error(radius: f32, error: f64) -> Self {
         let allowed = error / f64::from(radius);
         let near = |divisions: u32| chord_error(divisions) <= allowed;
@@ -76,10 +85,10 @@ impl Icosphere {
         Self { radius, divisions: low }
     }
 
-    /// Whether the fields are in their ranges.
+    /// Checks the ranges of the fields.
     ///
     /// # Errors
-    /// The first field that is not.
+    /// Names the first field out of range.
     pub fn validate(&self) -> Result<(), SurfaceError> {
         self.fields().iter().try_for_each(SurfaceField::check)
     }
@@ -105,8 +114,8 @@ fn small_triangles(n: u32) -> impl Iterator<Item = [CornerWeights; 3]> {
     })
 }
 
-/// The point of the unit sphere above the weighted mean of corners. Those without weight add nothing, so that a point
-/// on an edge is the same from both faces as long as the others come in one order.
+/// The point of the unit sphere above the weighted mean of corners. Corners without weight are left out, so that a
+/// point on an edge is the same from both faces as long as the others come in one order.
 fn on_sphere(corners: [(usize, u32); 3]) -> DVec3 {
     corners
         .iter()
@@ -130,8 +139,7 @@ fn chord_error(divisions: u32) -> f64 {
 }
 
 impl From<Icosphere> for Mesh {
-    /// Fields out of range are taken at their nearest value in range, with a warning in the log; see
-    /// [`Icosphere::validate`].
+    /// Fields out of range are clamped, with a warning in the log; see [`Icosphere::validate`].
     fn from(sphere: Icosphere) -> Self {
         let [radius, divisions] = sphere.fields().map(|field| field.nearest());
         let n = divisions as u32;
@@ -143,7 +151,7 @@ impl From<Icosphere> for Mesh {
             for triangle in small_triangles(n) {
                 indices.extend(triangle.map(|weights| {
                     let mut corners = paired(face, weights);
-                    // Which corner has no weight does not matter.
+                    // The order of corners without weight does not matter.
                     corners.sort_unstable_by_key(|&(corner, weight)| if weight == 0 { (1, 0) } else { (0, corner) });
                     let key = corners.map(|(corner, weight)| if weight == 0 { (0, 0) } else { (corner, weight) });
                     *vertices.entry(key).or_insert_with(|| {

@@ -1,4 +1,4 @@
-//! Surfaces that are known by formula, with their analytic normals.
+//! Surfaces defined by formulas, with their analytic normals.
 
 mod bezier;
 mod cuboid;
@@ -35,7 +35,14 @@ pub use surface::{Quadric, Surface, SurfacePiece};
 pub use teapot::Teapot;
 pub use tessellate::{ParametricSurface, Tessellation, tessellate};
 
-/// A surface that cannot be made.
+/// Why a surface was refused.
+///
+/// ```
+/// use halfway_mesh::Teapot;
+///
+/// let error = Teapot::new(0).validate().unwrap_err();
+/// assert_eq!((error.surface, error.field, error.value), ("Teapot", "divisions", 0.0));
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{surface}.{field}: {value}; {expected}")]
 pub struct SurfaceError {
@@ -43,9 +50,9 @@ pub struct SurfaceError {
     pub surface: &'static str,
     /// The field, as `"radius"`.
     pub field: &'static str,
-    /// What it holds.
+    /// Its value.
     pub value: f64,
-    /// What it may hold, as `"a number from 1 to 256 is expected"`.
+    /// The expected values, as `"a number from 1 to 256 is expected"`.
     pub expected: String,
 }
 
@@ -53,11 +60,11 @@ pub struct SurfaceError {
 /// them overflows.
 const LENGTHS: RangeInclusive<f32> = 1e-30..=1e30;
 
-/// The greatest coordinate of a point that a surface is given by, so that it and everything between such points can be
-/// told in `f32`.
+/// The greatest coordinate of a point that defines a surface, so that it and everything between such points can be
+/// represented in `f32`.
 const FURTHEST: f64 = 1e30;
 
-/// Whether the coordinates are in their range.
+/// Checks the ranges of coordinates.
 fn check_coordinates(
     surface: &'static str,
     field: &'static str,
@@ -73,10 +80,10 @@ fn check_coordinates(
     }
 }
 
-/// How many times longer than another one length of a surface may be.
+/// The greatest ratio of two lengths of a surface.
 const MOST_TIMES: f32 = 1e5;
 
-/// Whether all lengths of a surface are in their range, and none is too long for another.
+/// Checks that all lengths of a surface are in their range and none is too long for another.
 fn check_lengths(surface: &'static str, lengths: &[(&'static str, f32)]) -> Result<(), SurfaceError> {
     lengths.iter().try_for_each(|&(name, value)| SurfaceField::length(surface, name, value).check())?;
     let shortest = lengths.iter().map(|length| length.1).fold(f32::MAX, f32::min);
@@ -91,7 +98,7 @@ fn check_lengths(surface: &'static str, lengths: &[(&'static str, f32)]) -> Resu
     }
 }
 
-/// A field of a surface: checked, or brought into its range.
+/// A field of a surface, to be checked or clamped to its range.
 struct SurfaceField {
     surface: &'static str,
     name: &'static str,
@@ -125,7 +132,7 @@ impl SurfaceField {
     fn nearest(&self) -> f64 {
         let Err(error) = self.check() else { return self.value };
         let nearest = if self.value.is_nan() { 1.0 } else { self.value.clamp(*self.range.start(), *self.range.end()) };
-        // As `f32`, which a length is.
+        // As `f32`, the type of lengths.
         log::warn!("{error}; made with {}", nearest as f32);
         nearest
     }
@@ -150,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_nearest_value_in_range() {
+    fn values_are_clamped_to_their_range() {
         let length = |value: f32| SurfaceField::length("Test", "length", value).nearest() as f32;
         for (value, nearest) in [
             (2.0, 2.0),

@@ -1,4 +1,4 @@
-//! The figures of the Utah teapot: ten patches of 16 control points, and the symmetries that make 32 of them.
+//! The data of the Utah teapot: ten patches of 16 control points, and the symmetries that make 32 of them.
 //!
 //! Martin Newell's model of 1975 (Ph.D. thesis, University of Utah) in the form in which it was published: with the
 //! lower height that James Blinn gave it and with the bottom that was added later. F. Crow, "The Origins of the
@@ -7,14 +7,14 @@
 
 use bevy_math::DVec3;
 
-/// How a patch becomes the next one of its part of the teapot.
+/// The symmetry that maps a patch to the next one of its part of the teapot.
 #[derive(Clone, Copy)]
 pub(super) enum Symmetry {
-    /// By quarter turns about the axis, clockwise as seen from above; four patches go around.
+    /// Quarter turns about the axis, clockwise as seen from above; four patches go around.
     Clockwise,
-    /// The other way round.
+    /// Quarter turns the other way round.
     CounterClockwise,
-    /// By the mirror in the plane through spout and handle; there are two.
+    /// The mirror in the plane through spout and handle; there are two patches.
     Mirror,
 }
 

@@ -1,4 +1,4 @@
-//! Parameters of surfaces, and what is at them.
+//! Parameters of surfaces, and the points at them.
 
 use std::f64::consts::TAU;
 
@@ -6,8 +6,15 @@ use bevy_math::{DVec2, DVec3};
 
 /// A parameter from 0 to 1 with its complement.
 ///
-/// A fraction of whole numbers and its complement are rounded alike, so that an edge that two patches run along in
+/// A fraction of whole numbers and its complement are rounded alike, so that an edge that two patches share in
 /// opposite directions has bit-equal points.
+///
+/// ```
+/// use halfway_mesh::Parameter;
+///
+/// let third = Parameter::fraction(1, 3);
+/// assert_eq!(third.complement(), Parameter::fraction(2, 3).value());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
     t: f64,
@@ -94,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quarters_of_a_turn_are_exact_and_turns_are_mirrored() {
+    fn quarter_turns_are_exact_and_mirrored() {
         for n in [3, 4, 7, 8, 12, 512] {
             assert_eq!(turn(Parameter::fraction(0, n)), (0.0, 1.0));
             assert_eq!(turn(Parameter::fraction(n, n)), (0.0, 1.0));

@@ -1,4 +1,4 @@
-//! The pieces of surfaces that are parametric surfaces themselves.
+//! The building blocks of surfaces that are parametric surfaces themselves.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use super::parameter::{turn, uv_at};
 use super::{BezierPatch, Disc, Parameter, ParametricSurface, SurfacePiece, SurfacePoint};
 
 impl ParametricSurface for BezierPatch {
-    /// Where there is no normal, even in the limit, it is +Y.
+    /// The normal is +Y if there is none, not even in the limit.
     fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint {
         let [position, du, dv] = self.jet(u, v);
         SurfacePoint { position, du, dv, normal: self.normal(u, v).unwrap_or(DVec3::Y), uv: uv_at(u, v) }

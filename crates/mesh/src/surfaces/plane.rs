@@ -11,6 +11,13 @@ use crate::Mesh;
 /// Vertices lie row by row from −z to +z, in a row from −x to +x; texture coordinates run from (0, 0) at (−x, −z) to
 /// (1, 1) at (+x, +z). A cell with the vertices a b in one row and c d in the next has the triangles (a, c, b) and
 /// (b, c, d).
+///
+/// ```
+/// use halfway_mesh::{Mesh, Plane};
+///
+/// let floor = Mesh::from(Plane { size: 20.0, divisions: 4 });
+/// assert_eq!((floor.triangle_count(), floor.bounds().max.x), (32, 10.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     /// The length of an edge, 1e-30 … 1e30; 1 by default.
@@ -29,10 +36,10 @@ impl Plane {
     /// The most cells along an edge; more would be more than four million vertices.
     pub const MAX_DIVISIONS: u32 = 2048;
 
-    /// Whether the fields are in their ranges.
+    /// Checks the ranges of the fields.
     ///
     /// # Errors
-    /// The first field that is not.
+    /// Names the first field out of range.
     pub fn validate(&self) -> Result<(), SurfaceError> {
         self.fields().iter().try_for_each(SurfaceField::check)
     }
@@ -46,8 +53,7 @@ impl Plane {
 }
 
 impl From<Plane> for Mesh {
-    /// Fields out of range are taken at their nearest value in range, with a warning in the log; see
-    /// [`Plane::validate`].
+    /// Fields out of range are clamped, with a warning in the log; see [`Plane::validate`].
     fn from(plane: Plane) -> Self {
         let [size, divisions] = plane.fields().map(|field| field.nearest());
         let n = divisions as u32;
@@ -61,7 +67,7 @@ impl From<Plane> for Mesh {
     }
 }
 
-/// u runs from −z to +z, v from +x to −x. The divisions matter to `Mesh::from` alone.
+/// u runs from −z to +z, v from +x to −x. The divisions are used by `Mesh::from` only.
 impl ParametricSurface for Plane {
     fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint {
         let size = f64::from(self.size);
@@ -78,7 +84,7 @@ impl ParametricSurface for Plane {
         Self::validate(self)
     }
 
-    /// None: a mesh of it is exact.
+    /// None: its mesh is exact.
     fn pieces(&self) -> Option<Vec<SurfacePiece>> {
         None
     }

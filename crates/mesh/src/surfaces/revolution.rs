@@ -7,7 +7,7 @@ use bevy_math::{DMat4, DVec2, DVec3, DVec4};
 use super::parameter::{turn, uv_at};
 use super::{Disc, Parameter, ParametricSurface, Quadric, SurfaceError, SurfacePiece, SurfacePoint, check_lengths};
 
-/// A point of the curve that a surface of revolution is made from: at the distance r from the Y axis, at the height y.
+/// A point of the profile of a surface of revolution: at the distance r from the Y axis, at the height y.
 struct Profile {
     /// (r, y).
     point: DVec2,
@@ -18,7 +18,7 @@ struct Profile {
 }
 
 impl Profile {
-    /// The point after a part v of a turn about the Y axis, from +X toward +Z.
+    /// The point after a rotation by v of a turn about the Y axis, from +X toward +Z.
     fn revolved(self, u: Parameter, v: Parameter) -> SurfacePoint {
         let (sin, cos) = turn(v);
         let about = |p: DVec2| DVec3::new(p.x * cos, p.y, p.x * sin);
@@ -50,6 +50,16 @@ fn quadric([q, a, b, c]: [f64; 4], radius: f64, [low, high]: [f64; 2]) -> Surfac
 /// A circular cylinder about the Y axis: x² + z² = `radius`², |y| ≤ `height` / 2.
 ///
 /// u runs down, v around from +X toward +Z.
+///
+/// ```
+/// use halfway_mesh::{Cylinder, ParametricSurface, Tessellation};
+///
+/// let tin = Cylinder { radius: 1.0, height: 2.0, capped: true }.mesh(Tessellation::ChordError(0.001))?;
+/// let report = tin.report();
+/// assert_eq!(report.closed, 1);
+/// assert!((report.volume - 2.0 * std::f64::consts::PI).abs() < 0.02);
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     /// The radius, 1e-30 … 1e30.
@@ -90,6 +100,14 @@ impl ParametricSurface for Cylinder {
 /// A circular cone about the Y axis: its tip is at y = `height` / 2, its base at y = −`height` / 2.
 ///
 /// u runs from the tip down, v around from +X toward +Z. At the tip each v has the normal of the line that it begins.
+///
+/// ```
+/// use halfway_mesh::{Cone, ParametricSurface, Tessellation};
+///
+/// let open = Cone { radius: 1.0, height: 2.0, capped: false }.mesh(Tessellation::Count { rows: 1, columns: 32 })?;
+/// assert_eq!((open.triangle_count(), open.report().problems.open_edges), (32, 32));
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
     /// The radius of the base, 1e-30 … 1e30.
@@ -130,10 +148,18 @@ impl ParametricSurface for Cone {
     }
 }
 
-/// A cylinder about the Y axis that ends in half spheres: the points at the distance `radius` from a line of `length`
+/// A cylinder about the Y axis with hemispherical ends: the points at the distance `radius` from a line of `length`
 /// along the axis, centred on the origin.
 ///
-/// u runs from top to bottom in proportion to the way along the surface, v around from +X toward +Z.
+/// u runs from top to bottom in proportion to the arc length, v around from +X toward +Z.
+///
+/// ```
+/// use halfway_mesh::{Capsule, ParametricSurface, Tessellation};
+///
+/// let pill = Capsule { radius: 0.5, length: 1.0 }.mesh(Tessellation::ChordError(0.01))?;
+/// assert_eq!(pill.bounds().size().y, 2.0);
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capsule {
     /// The radius, 1e-30 … 1e30.
@@ -180,8 +206,16 @@ impl ParametricSurface for Capsule {
 
 /// A ring about the Y axis: a tube around a circle in the plane y = 0.
 ///
-/// u runs around the tube from its inside up, v around the ring from +X toward +Z. Of fourth degree, it has no pieces
-/// that are quadrics or polynomial patches.
+/// u runs around the tube from its inside up, v around the ring from +X toward +Z. Being of fourth degree, it has no
+/// exact [`Surface`](super::Surface).
+///
+/// ```
+/// use halfway_mesh::{ParametricSurface, Tessellation, Torus};
+///
+/// let ring = Torus { radius: 2.0, tube: 0.5 }.mesh(Tessellation::Count { rows: 16, columns: 32 })?;
+/// assert_eq!((ring.triangle_count(), ring.report().problems.open_edges), (1024, 0));
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torus {
     /// The radius of the circle, 1e-30 … 1e30.
@@ -224,6 +258,14 @@ impl ParametricSurface for Torus {
 /// A circular paraboloid about the Y axis, open below: its top is at y = `height` / 2, its rim at y = −`height` / 2.
 ///
 /// u runs from the top in proportion to the distance from the axis, v around from +X toward +Z.
+///
+/// ```
+/// use halfway_mesh::{Paraboloid, ParametricSurface, Tessellation};
+///
+/// let dome = Paraboloid { radius: 2.0, height: 1.0 }.mesh(Tessellation::ChordError(0.01))?;
+/// assert_eq!(dome.bounds().max.y, 0.5);
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paraboloid {
     /// The radius of the rim, 1e-30 … 1e30.
@@ -259,6 +301,14 @@ impl ParametricSurface for Paraboloid {
 /// `height` / 2, c such that the rims have the `radius`.
 ///
 /// u runs down, v around from +X toward +Z.
+///
+/// ```
+/// use halfway_mesh::{Hyperboloid, ParametricSurface, Tessellation};
+///
+/// let tower = Hyperboloid { waist: 0.5, radius: 1.0, height: 3.0 };
+/// assert!(tower.mesh(Tessellation::ChordError(0.01))?.surface().is_some());
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hyperboloid {
     /// The radius at y = 0, 1e-30 … 1e30.
@@ -315,6 +365,15 @@ impl ParametricSurface for Hyperboloid {
 ///
 /// Its outward side is the one toward the other sheet. u runs from the tip to the rim in proportion to the distance
 /// from the axis; v around from +X, toward +Z on the lower sheet and toward −Z on the upper one.
+///
+/// ```
+/// use halfway_mesh::{HyperboloidSheet, Tessellation, tessellate};
+///
+/// let sheet = |upper| HyperboloidSheet { gap: 1.0, radius: 1.0, height: 1.0, upper };
+/// let both = tessellate(&[&sheet(false), &sheet(true)], Tessellation::ChordError(0.01))?;
+/// assert_eq!(both.report().pieces, 2);
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HyperboloidSheet {
     /// The distance between the tips of both sheets, 1e-30 … 1e30.

@@ -11,19 +11,27 @@ use crate::Mesh;
 /// Parallel j of `rings` has the polar angle θ = πj / `rings` from +Y, meridian i of `segments` the longitude
 /// φ = 2πi / `segments` from +X toward +Z; the normal is n = (sin θ cos φ, cos θ, sin θ sin φ), the position
 /// `radius`·n. That makes (`segments` + 1)·(`rings` + 1) vertices, parallel by parallel: the poles and the first
-/// meridian are repeated, at bit-equal positions, for the sake of the texture coordinates. With a and b = a + 1 on one
-/// parallel and c, d under them on the next, a cell has the triangles (a, b, d), but not at the north pole, and
+/// meridian are repeated, at bit-equal positions, because they have several texture coordinates. With a and b = a + 1
+/// on one parallel and c, d under them on the next, a cell has the triangles (a, b, d), but not at the north pole, and
 /// (a, d, c), but not at the south pole: 2·`segments`·(`rings` − 1) in all, none of them degenerate.
 ///
 /// A texture is wrapped around once, with its top at +Y and upright as seen from outside: its coordinates are
 /// (1 − i / `segments`, j / `rings`).
+///
+/// ```
+/// use halfway_mesh::{Mesh, UvSphere};
+///
+/// let ball = Mesh::from(UvSphere::new(0.5, 32, 16));
+/// assert_eq!(ball.triangle_count(), 2 * 32 * 15);
+/// assert!(ball.uvs().is_some() && ball.surface().is_some());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UvSphere {
     /// The radius, 1e-30 … 1e30; 1 by default.
     pub radius: f32,
-    /// How many meridians, 3 … [`UvSphere::MAX_SEGMENTS`]; 32 by default.
+    /// The number of meridians, 3 … [`UvSphere::MAX_SEGMENTS`]; 32 by default.
     pub segments: u32,
-    /// How many bands between parallels, 2 … [`UvSphere::MAX_RINGS`]; 16 by default.
+    /// The number of bands between parallels, 2 … [`UvSphere::MAX_RINGS`]; 16 by default.
     pub rings: u32,
 }
 
@@ -39,15 +47,15 @@ impl UvSphere {
     /// The most bands.
     pub const MAX_RINGS: u32 = 2048;
 
-    /// A sphere of this radius, meridians and bands.
+    /// A sphere of this radius with so many meridians and bands.
     pub fn new(radius: f32, segments: u32, rings: u32) -> Self {
         Self { radius, segments, rings }
     }
 
-    /// Whether the fields are in their ranges.
+    /// Checks the ranges of the fields.
     ///
     /// # Errors
-    /// The first field that is not.
+    /// Names the first field out of range.
     pub fn validate(&self) -> Result<(), SurfaceError> {
         self.fields().iter().try_for_each(SurfaceField::check)
     }
@@ -62,8 +70,7 @@ impl UvSphere {
 }
 
 impl From<UvSphere> for Mesh {
-    /// Fields out of range are taken at their nearest value in range, with a warning in the log; see
-    /// [`UvSphere::validate`].
+    /// Fields out of range are clamped, with a warning in the log; see [`UvSphere::validate`].
     fn from(sphere: UvSphere) -> Self {
         let [radius, segments, rings] = sphere.fields().map(|field| field.nearest());
         let (segments, rings) = (segments as u32, rings as u32);

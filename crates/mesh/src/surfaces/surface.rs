@@ -6,10 +6,19 @@ use bevy_math::{DMat4, DVec3, DVec4};
 
 use super::{BezierPatch, Disc, SurfaceError};
 
-/// The smooth surface that a mesh stands for, known by formula, in the mesh's own space: the pieces that it is put
-/// together from. Each piece has an outward side, on which the mesh's normals are.
+/// The smooth surface that a mesh stands for, known by formula, in the mesh's own space: a list of pieces. Each piece
+/// has an outward side, on which the mesh's normals are.
 ///
 /// Clones share the pieces.
+///
+/// ```
+/// use halfway_mesh::{Mesh, SurfacePiece, UvSphere};
+///
+/// // However coarse the mesh, it knows that it is a sphere.
+/// let mesh = Mesh::from(UvSphere::new(1.0, 8, 4));
+/// let surface = mesh.surface().expect("spheres are quadrics");
+/// assert!(matches!(surface.pieces(), [SurfacePiece::Quadric(_)]));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     pieces: Arc<[SurfacePiece]>,
@@ -47,6 +56,18 @@ impl From<Quadric> for Surface {
 /// The part of a quadric inside a box whose edges lie along the axes.
 ///
 /// With p = (x, y, z, 1) the quadric is where f = pᵀ Q p = 0. f is negative inside, and its gradient points outward.
+///
+/// ```
+/// use bevy_math::{DMat4, DVec3, DVec4};
+/// use halfway_mesh::Quadric;
+///
+/// // x² + y² + z² − 1, the unit sphere; its upper half.
+/// let matrix = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0, -1.0));
+/// let half = Quadric::new(matrix, DVec3::new(-1.0, 0.0, -1.0), DVec3::ONE)?;
+/// assert_eq!(half.value(DVec3::ZERO), -1.0);
+/// assert_eq!(half.gradient(DVec3::Y), DVec3::new(0.0, 2.0, 0.0));
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quadric {
     matrix: DMat4,
@@ -75,7 +96,7 @@ impl Quadric {
         Ok(Self::within(matrix, min, max))
     }
 
-    /// Takes what is known to be good.
+    /// From values that are known to be valid.
     pub(super) fn within(matrix: DMat4, min: DVec3, max: DVec3) -> Self {
         // The skew part of a matrix adds nothing to pᵀ Q p, and would spoil the gradient.
         Self { matrix: (matrix + matrix.transpose()) * 0.5, min, max }

@@ -10,16 +10,24 @@ use crate::Mesh;
 /// The Utah teapot, from Martin Newell's 32 bicubic Bézier patches (see the module `newell` for the source): rim, body,
 /// handle, spout, lid with its knob, and bottom, with the normals of the patches.
 ///
-/// It is turned from Newell's Z up to Y up and made three quarters as large: the spout points along +X, the handle
-/// along −X; the axis of the body is the Y axis, the middle of the height lies on y = 0. It is 2.3625 high
-/// (y = ±1.18125), its body 3 across, from the handle to the tip of the spout it reaches from x = −2.25 to x ≈ 2.57.
+/// It is rotated from Newell's Z up to Y up and scaled by three quarters: the spout points along +X, the handle along
+/// −X; the axis of the body is the Y axis, the middle of the height lies on y = 0. It is 2.3625 high (y = ±1.18125),
+/// its body 3 across, from the handle to the tip of the spout it reaches from x = −2.25 to x ≈ 2.57.
 ///
 /// Each patch is a grid of `divisions` × `divisions` cells of two triangles; where a patch ends in a point, at the top
 /// of the knob and in the middle of the bottom, the cells there have one. That makes 64 `divisions`² − 8 `divisions`
 /// triangles, none of them degenerate; 52 for one division, where four would be. Vertices are not shared between
 /// patches, since each patch has the whole texture; along an edge that two patches share they are bit-equal, so that
-/// there are no cracks. The surface is as Newell left it: the lid is not joined to the rim, and handle and spout end
-/// inside the body.
+/// there are no cracks. As in Newell's model, the lid is not joined to the rim, and handle and spout end inside the
+/// body.
+///
+/// ```
+/// use halfway_mesh::{Mesh, Teapot};
+///
+/// let teapot = Mesh::from(Teapot::new(8));
+/// assert_eq!(teapot.triangle_count(), 4032);
+/// assert!(Teapot::for_chord_error(0.001).divisions > 8);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Teapot {
     /// How many cells an edge of a patch is cut into, 1 … [`Teapot::MAX_DIVISIONS`]; 8 by default.
@@ -46,18 +54,19 @@ impl Teapot {
         Self { divisions }
     }
 
-    /// The coarsest teapot, about, whose triangles are nowhere further than `error` from its surface, as
-    /// [`Tessellation::ChordError`](crate::Tessellation::ChordError) has it; the finest there is where none is as near.
+    /// The coarsest teapot, approximately, whose triangles are nowhere further than `error` from its surface, as
+    /// [`Tessellation::ChordError`](crate::Tessellation::ChordError) measures it; the finest one if none is as
+    /// accurate.
     pub fn for_chord_error(error: f64) -> Self {
         let most = [Self::MAX_DIVISIONS; 2];
         let counts = patches().flat_map(|patch| counts_for(&patch.mapped(mesh_from_newell), error, most));
         Self { divisions: counts.max().unwrap_or(1) }
     }
 
-    /// Whether the divisions are in their range.
+    /// Checks the range of the divisions.
     ///
     /// # Errors
-    /// They are not.
+    /// The divisions are out of range.
     pub fn validate(&self) -> Result<(), SurfaceError> {
         self.divisions_field().check()
     }
@@ -83,15 +92,14 @@ fn patches() -> impl Iterator<Item = BezierPatch> {
 }
 
 impl From<Teapot> for Mesh {
-    /// Divisions out of range are taken at their nearest value in range, with a warning in the log; see
-    /// [`Teapot::validate`].
+    /// Divisions out of range are clamped, with a warning in the log; see [`Teapot::validate`].
     fn from(teapot: Teapot) -> Self {
         let n = teapot.divisions_field().nearest() as u32;
         let mut grids = Grids::default();
         for patch in patches() {
             grids.add(n, n, |u, v| {
-                // All of Newell's patches wind so that ∂p/∂v × ∂p/∂u points outward, and none of his normals vanishes
-                // altogether; up is as good as any other way should one do so.
+                // All of Newell's patches wind so that ∂p/∂v × ∂p/∂u points outward, and none of his normals vanishes;
+                // up is an arbitrary fallback.
                 let normal = patch.normal(u, v).unwrap_or(DVec3::Z);
                 Vertex {
                     position: mesh_from_newell(patch.position(u, v)).as_vec3(),
@@ -143,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_are_perpendicular_to_the_surface_around_them() {
+    fn normals_are_perpendicular_to_the_surface() {
         // Central differences of the surface itself: their error is of second order in the step, times the curvature
         // of Newell's tightest bends.
         let steps = 1_000_000;
@@ -162,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_at_the_points_of_patches_are_the_limits() {
+    fn normals_at_degenerate_ends_are_limits() {
         let (start, middle) = (Parameter::fraction(0, N), Parameter::fraction(1, 2));
         let pointed: Vec<BezierPatch> =
             patches().filter(|patch| patch.position(start, start) == patch.position(start, middle)).collect();

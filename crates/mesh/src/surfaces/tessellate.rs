@@ -7,19 +7,50 @@ use crate::{Mesh, face_normal};
 
 /// A surface p(u, v), u and v from 0 to 1, in f64.
 ///
-/// u runs from row to row of a mesh of it, v along a row; the outward side is that of ∂p/∂v × ∂p/∂u. Seen from outside
-/// with v running left, u runs down: a texture that covers it whole has the coordinates (1 − v, u).
+/// u runs from row to row of its mesh, v along a row; the outward side is that of ∂p/∂v × ∂p/∂u. Seen from outside with
+/// v running left, u runs down: a texture that covers the whole surface has the coordinates (1 − v, u).
+///
+/// ```
+/// use bevy_math::{DVec2, DVec3};
+/// use halfway_mesh::{Parameter, ParametricSurface, SurfacePiece, SurfacePoint, Tessellation};
+///
+/// /// A helicoid: a line that turns as it rises.
+/// struct Helicoid;
+///
+/// impl ParametricSurface for Helicoid {
+///     fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint {
+///         let (sin, cos) = (6.0 * v.value()).sin_cos();
+///         let along = DVec3::new(cos, 0.0, sin);
+///         let du = along;
+///         let dv = u.value() * 6.0 * DVec3::new(-sin, 0.0, cos) + DVec3::Y;
+///         SurfacePoint {
+///             position: u.value() * along + v.value() * DVec3::Y,
+///             du,
+///             dv,
+///             normal: dv.cross(du).normalize(),
+///             uv: DVec2::new(v.complement(), u.value()),
+///         }
+///     }
+///     fn pieces(&self) -> Option<Vec<SurfacePiece>> {
+///         None
+///     }
+/// }
+///
+/// let stairs = Helicoid.mesh(Tessellation::Count { rows: 8, columns: 64 })?;
+/// assert_eq!(stairs.triangle_count(), 2 * 8 * 64);
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 pub trait ParametricSurface {
     /// Everything about the point p(u, v).
     ///
-    /// Means nothing where [`validate`](Self::validate) refuses the surface.
+    /// Unspecified if [`validate`](Self::validate) refuses the surface.
     fn at(&self, u: Parameter, v: Parameter) -> SurfacePoint;
 
-    /// Whether every field is in its range: all lengths from 1e-30 to 1e30, none more than 10⁵ times another, since
+    /// Checks that every field is in its range: all lengths from 1e-30 to 1e30, none more than 10⁵ times another, since
     /// `f32` could no longer tell their ends apart.
     ///
     /// # Errors
-    /// The first field that is not.
+    /// Names the first field out of range.
     fn validate(&self) -> Result<(), SurfaceError> {
         Ok(())
     }
@@ -29,18 +60,18 @@ pub trait ParametricSurface {
         [1, 1]
     }
 
-    /// The discs that belong to it as well.
+    /// The discs that close its ends.
     fn caps(&self) -> Vec<Disc> {
         Vec::new()
     }
 
-    /// The pieces of a [`Surface`](super::Surface) that are exactly p, without the caps; `None` where there are no
-    /// such.
+    /// The pieces of a [`Surface`](super::Surface) that are exactly p, without the caps; `None` if there are no such
+    /// pieces.
     fn pieces(&self) -> Option<Vec<SurfacePiece>>;
 
     /// Its mesh, with its caps: a grid of cells of two triangles each, which at a pole have one.
     ///
-    /// Vertices lie row by row; seams and poles are repeated at equal positions for the sake of the texture
+    /// Vertices lie row by row; seams and poles are repeated at equal positions, because they have several texture
     /// coordinates. Triangles that are degenerate in `f32` are left out.
     ///
     /// # Errors
@@ -63,11 +94,11 @@ pub enum Tessellation {
         /// Along v, at most [`Tessellation::MAX_COLUMNS`].
         columns: u32,
     },
-    /// Until nowhere the surface is further than this from the plane of its triangle, nor its border from an edge; in
-    /// the units of the surface, positive.
+    /// As coarsely as keeps every point of the surface within this distance of the plane of its triangle, and its
+    /// border within it of an edge; in the units of the surface, positive.
     ///
-    /// Measured at the middle and along the edges of every triangle, with a twentieth to spare for what lies between.
-    /// The greatest counts end it, with a warning in the log.
+    /// Measured at the middle and along the edges of every triangle, with a margin of a twentieth for the points
+    /// between. At the greatest counts it stops, with a warning in the log.
     ChordError(f64),
 }
 
@@ -77,7 +108,7 @@ impl Tessellation {
     /// The most columns of cells; more would be more than eight million vertices.
     pub const MAX_COLUMNS: u32 = 4096;
 
-    /// Whether it can be had of a surface of these fewest counts.
+    /// Checks the counts for a surface with these fewest counts.
     fn validate(self, [least_rows, least_columns]: [u32; 2]) -> Result<(), SurfaceError> {
         match self {
             Self::Count { rows, columns } => {
@@ -100,7 +131,17 @@ const MOST_CELLS: u64 = u32::MAX as u64 / 6;
 
 /// One mesh of several surfaces and their caps. All have as many columns, so that common edges are closed.
 ///
-/// It stands for a [`Surface`] where each of them does.
+/// It has a [`Surface`](super::Surface) if each of them does.
+///
+/// ```
+/// use halfway_mesh::{Capsule, Tessellation, Torus, tessellate};
+///
+/// let planet = Capsule { radius: 1.0, length: 0.1 };
+/// let ring = Torus { radius: 2.0, tube: 0.1 };
+/// let mesh = tessellate(&[&planet, &ring], Tessellation::Count { rows: 24, columns: 48 })?;
+/// assert_eq!(mesh.report().pieces, 2);
+/// # Ok::<(), halfway_mesh::SurfaceError>(())
+/// ```
 ///
 /// # Errors
 /// No surface, a field of a surface or of the tessellation that is out of its range, or more than 700 million cells.
@@ -114,7 +155,7 @@ pub fn tessellate(surfaces: &[&dyn ParametricSurface], tessellation: Tessellatio
         let least = part.least_counts();
         tessellation.validate(least)?;
         counts.push(match tessellation {
-            // A cap is flat: all its rows but the last would be for nothing.
+            // A cap is flat: one row is exact.
             Tessellation::Count { columns, .. } if i >= surfaces.len() => [1, columns],
             Tessellation::Count { rows, columns } => [rows, columns],
             Tessellation::ChordError(error) => {
@@ -139,7 +180,7 @@ pub fn tessellate(surfaces: &[&dyn ParametricSurface], tessellation: Tessellatio
     })
 }
 
-/// A vertex in the making.
+/// A vertex under construction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vertex {
     pub(super) position: Vec3,
@@ -153,7 +194,7 @@ impl From<SurfacePoint> for Vertex {
     }
 }
 
-/// Grids of cells, one after the other.
+/// Grids of cells that become one mesh.
 #[derive(Default)]
 pub(super) struct Grids {
     positions: Vec<Vec3>,
@@ -201,29 +242,29 @@ impl Grids {
     }
 }
 
-/// The part of the chord error that is spent at the samples.
+/// The fraction of the chord error that is allowed at the samples.
 const SPENT: f64 = 0.95;
 
-/// From this many rows or columns on, samples are believed. A surface that bends to and fro within larger cells may
-/// pass through their samples, and is looked at in cells of half the size as well.
+/// From this number of rows or columns on, the samples are trusted. A surface that oscillates within larger cells may
+/// pass through their samples, and is also measured in cells of half the size.
 const CERTAIN: u32 = 16;
 
-/// The fewest rows and columns, about, that keep the chord error, and at most `most`.
+/// The fewest rows and columns, approximately, that keep the chord error, and at most `most`.
 pub(super) fn counts_for(surface: &dyn ParametricSurface, error: f64, most: [u32; 2]) -> [u32; 2] {
     let allowed = SPENT * error;
     let mut counts = surface.least_counts();
     loop {
-        let deviation = ChordDeviation::of(surface, counts);
+        let deviation = ChordDeviation::measure(surface, counts);
         if deviation.most <= allowed {
             let finer = counts.map(|count| 2 * count);
-            if counts.into_iter().max() >= Some(CERTAIN) || ChordDeviation::of(surface, finer).most <= allowed {
+            if counts.into_iter().max() >= Some(CERTAIN) || ChordDeviation::measure(surface, finer).most <= allowed {
                 return counts;
             }
             counts = finer;
             continue;
         }
         // Deviations fall with the square of the counts, and those along u and along v add up in the middle of a cell.
-        // The cells are fewest where both are half of what is allowed, or where one has what the other does not need.
+        // The cells are fewest where both are half of the allowance, or where one gets what the other does not need.
         let finer = |axis: usize, along: f64, across: f64| {
             let room = (allowed - across).max(0.5 * allowed);
             let wanted = (f64::from(counts[axis]) * (along / room).sqrt().min(16.0)).ceil() as u32;
@@ -232,7 +273,7 @@ pub(super) fn counts_for(surface: &dyn ParametricSurface, error: f64, most: [u32
         let ChordDeviation { along_u, along_v, .. } = deviation;
         let mut next = [finer(0, along_u, along_v), finer(1, along_v, along_u)];
         if next == counts {
-            // What is left comes from the twist of the cells.
+            // The remaining deviation comes from the twist of the cells.
             next = [0, 1].map(|axis| (counts[axis] + counts[axis] / 8 + 1).min(most[axis]));
         }
         if next == counts {
@@ -244,7 +285,7 @@ pub(super) fn counts_for(surface: &dyn ParametricSurface, error: f64, most: [u32
     }
 }
 
-/// How far a surface is from the triangles of a tessellation.
+/// The distance of a surface from the triangles of a tessellation.
 struct ChordDeviation {
     /// At the middles of the edges along u.
     along_u: f64,
@@ -255,7 +296,7 @@ struct ChordDeviation {
 }
 
 impl ChordDeviation {
-    fn of(surface: &dyn ParametricSurface, [rows, columns]: [u32; 2]) -> Self {
+    fn measure(surface: &dyn ParametricSurface, [rows, columns]: [u32; 2]) -> Self {
         // Vertices and edge middles are every other point of a grid that is twice as fine, the middles of triangles
         // every sixth.
         let at =
@@ -269,7 +310,7 @@ impl ChordDeviation {
             let (bottom, right) = (at(i + 6, j + 3), at(i + 3, j + 6));
             let mut along_u = upper.distance(left).max(lower.distance(right));
             let mut along_v = upper.distance(top).max(lower.distance(bottom));
-            // The border has no neighbour that would cover what lies beside an edge.
+            // The border has no neighbour that would cover the points beside an edge.
             for (on_border, middle, ends) in [(j == 0, left, [a, c]), (j + 6 == 6 * columns, right, [b, d])] {
                 along_u = along_u.max(if on_border { from_edge(middle, ends) } else { 0.0 });
             }
@@ -289,7 +330,7 @@ impl ChordDeviation {
 /// The plane of a triangle.
 struct ChordTriangle {
     corner: DVec3,
-    /// 0 where the triangle is a line or a point: then its neighbours cover it.
+    /// 0 if the triangle is a line or a point: then its neighbours cover it.
     normal: DVec3,
 }
 

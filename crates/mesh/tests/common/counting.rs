@@ -5,7 +5,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// Bytes that a file may take in memory: for each of its own, and however small it is. An `f` of SMF with two digits a
+/// Bytes that a file may take in memory: for each of its own, and in any case. An `f` of SMF with two digits a
 /// corner takes 9 bytes and becomes three vertices of 48 bytes where attributes are bound to faces, in arrays that are
 /// up to twice as large; the documents of glTF are trees of JSON. Errors and warnings quote a few lines.
 const PER_BYTE: usize = 256;
@@ -32,7 +32,7 @@ impl Counting {
         self.now.load(Relaxed)
     }
 
-    /// Does some work; returns what it returns, and the most bytes that were taken meanwhile beyond those before.
+    /// Does some work; returns its result, and the peak of the bytes taken meanwhile beyond those before.
     pub(crate) fn peak_of<T>(&self, work: impl FnOnce() -> T) -> (T, usize) {
         let before = self.now();
         self.peak.store(before, Relaxed);
@@ -61,7 +61,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // What is counted is the larger of the two: large blocks grow where they are.
+        // The larger of the two counts: large blocks grow in place.
         if size > layout.size() {
             self.add(size - layout.size());
         } else {

@@ -1,4 +1,4 @@
-//! What the tests of files share.
+//! Shared by the tests of files.
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
 use std::fs;
@@ -38,7 +38,7 @@ impl Drop for Folder {
     }
 }
 
-/// That a model keeps its promises.
+/// Checks that a model is valid.
 pub(crate) fn check_model(model: &Model) {
     assert!(!model.parts.is_empty());
     for part in &model.parts {

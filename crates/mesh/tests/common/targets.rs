@@ -1,13 +1,13 @@
-//! What fuzzing feeds the readers, and what it asks of them: that nothing panics, that a model keeps its promises, and
-//! that memory is in proportion to the bytes. One target for each format, and two for what a reader of bytes seldom or
-//! never comes to.
+//! The fuzz targets: each feeds a reader and checks that it does not panic, that any model is valid, and that memory is
+//! in proportion to the bytes. One target for each format, and two for parts that a reader of bytes seldom or never
+//! reaches.
 
 use halfway_mesh::{Format, LoadError, Model, load, load_bytes};
 
 use crate::common::{Folder, check_model, glb};
 use crate::counting::{Counting, most_for};
 
-/// What a model read from files takes besides: the buffers of the two files that are open at once.
+/// The further memory of a model read from files: the buffers of the two files that are open at once.
 const BUFFERS: usize = 1 << 19;
 
 /// Reads the bytes as `target` says: `mtl` is the material library of an OBJ file, `glb_chunks` the JSON of a binary

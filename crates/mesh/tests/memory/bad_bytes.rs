@@ -1,6 +1,5 @@
-//! Thousands of spoilt files of every format: each is refused or gives a model that keeps its promises, and takes
-//! memory in proportion to its bytes. The same at every run; `HALFWAY_SEED` and `HALFWAY_VARIANTS` ask for others and
-//! for more.
+//! Thousands of corrupted files of every format: each is refused or gives a valid model, and takes memory in proportion
+//! to its bytes. The same at every run; `HALFWAY_SEED` and `HALFWAY_VARIANTS` ask for others and for more.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -77,7 +76,7 @@ fn rich_gltf() -> (String, Vec<u8>) {
     (json.to_owned(), data)
 }
 
-/// The sound files that are spoilt.
+/// The valid files that are corrupted.
 fn corpus() -> Vec<(&'static str, Format, Vec<u8>)> {
     let (json, data) = rich_gltf();
     let uri = |json: &str, length: usize, data: &[u8]| {
@@ -127,7 +126,7 @@ const NUMBERS: [&str; 16] = [
 ];
 const WORDS: [u32; 8] = [0, 1, 0x7F, 0xFF, 0x7FFF_FFFF, 0x8000_0000, 0x7FC0_0000, 0xFFFF_FFFF];
 
-/// Spoils a file in one of the ways that files are spoilt.
+/// Corrupts a file in a random way.
 fn spoil(file: &mut Vec<u8>, random: &mut Rng) {
     let length = file.len();
     if length == 0 {
@@ -164,7 +163,7 @@ fn asked(name: &str, otherwise: u64) -> u64 {
 }
 
 #[test]
-fn spoilt_files_are_refused_or_read_soundly() {
+fn corrupted_files_are_refused_or_valid() {
     let _alone = alone();
     let (seed, variants) = (asked("HALFWAY_SEED", 1), asked("HALFWAY_VARIANTS", 3000));
     for (name, format, sound) in corpus() {
@@ -197,7 +196,7 @@ fn spoilt_files_are_refused_or_read_soundly() {
             let most = most_for(file.len());
             assert!(peak <= most, "{name}, seed {seed}, variant {variant}: {peak} bytes for {}", file.len());
         }
-        // Were no spoilt file sound, nothing but refusal would be tested.
+        // If no corrupted file were valid, only refusal would be tested.
         assert!(survived * 50 > variants, "{name}: {survived} of {variants}");
     }
 }

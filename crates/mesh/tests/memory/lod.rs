@@ -27,7 +27,7 @@ fn stone_with_core() -> Mesh {
 }
 
 #[test]
-fn making_levels_takes_three_times_the_memory_of_the_mesh_at_most() {
+fn levels_take_at_most_three_times_the_memory_of_the_mesh() {
     let _alone = alone();
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     for (name, mesh) in [("one piece", stone()), ("two pieces", stone_with_core())] {

@@ -1,4 +1,4 @@
-//! What fuzzing found once, and what it starts from: the files of `past_failures/TARGET/` here and of
+//! Inputs on which fuzzing failed once, and its seeds: the files of `past_failures/TARGET/` here and of
 //! `fuzz/seeds/TARGET/`.
 
 use std::fs;

@@ -21,7 +21,7 @@ fn sheet(times: u32) -> Mesh {
 }
 
 #[test]
-fn the_same_height_everywhere_is_an_offset() {
+fn uniform_displacement_is_an_offset() {
     let sphere = Mesh::from(UvSphere::new(1.0, 24, 12));
     let (larger, report) = sphere.displaced(|_| 0.5).unwrap();
     assert_eq!(report.cancelled, 0);
@@ -37,7 +37,7 @@ fn the_same_height_everywhere_is_an_offset() {
 }
 
 #[test]
-fn nothing_tears_at_creases_and_seams() {
+fn displacement_keeps_creases_and_seams_closed() {
     // Every vertex another height; the cuboid has three vertices at each corner.
     let (mesh, _) = Mesh::from(Cuboid::default()).displaced(|vertex| vertex as f32 * 0.01).unwrap();
     let report = mesh.report();

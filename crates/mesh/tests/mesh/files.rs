@@ -1,4 +1,4 @@
-//! Files as such: which are opened, and that nothing in one makes a reader panic. The project's own models.
+//! Opening files, malformed files of all formats, and the project's own models.
 
 #[path = "../../examples/make_assets.rs"]
 #[allow(dead_code, unreachable_pub, reason = "an example has a main function, and shares its files with this test")]
@@ -78,9 +78,9 @@ fn extensions_are_read_in_either_case() {
 fn formats_are_told_by_the_extension() {
     for format in Format::ALL {
         let name = format!("a.b.{}", format.extension().to_ascii_uppercase());
-        assert_eq!(Format::of(Path::new(&name)), Some(format));
+        assert_eq!(Format::from_path(Path::new(&name)), Some(format));
     }
-    assert_eq!(Format::of(Path::new("obj")), None);
+    assert_eq!(Format::from_path(Path::new("obj")), None);
     let model = load_bytes(Format::Smf, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     assert_eq!((model.triangle_count(), &model.parts[0].name[..]), (1, "model"));
     assert_eq!(load_bytes(Format::Stl, b"").unwrap_err().to_string(), "model.stl: the file is empty");
@@ -166,7 +166,7 @@ fn files_outside_the_folder_are_read_only_when_told_so() {
     }
 }
 
-/// Loads a file for the sake of not panicking; a model that comes out keeps its promises.
+/// Loads a file and checks that it does not panic and that any model is valid.
 fn survive(path: &Path) -> bool {
     load(path).is_ok_and(|model| {
         check_model(&model);
@@ -190,7 +190,7 @@ const OBJ: &str = "mtllib model.mtl\no a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 1\n
 const MTL: &str = "newmtl m\nKa 1 1 1\nKd 0.5\nNs 10\nd 1\nTr 0\nillum 2\nmap_Kd a.png\n";
 const SMF: &str = "#$SMF 1.0\nbegin\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nend\n";
 
-/// The small files that are spoilt: name, what is written, the text in it that is spoilt.
+/// The small files to corrupt: name, the file written, the text in it that is corrupted.
 fn victims() -> [(&'static str, &'static str); 4] {
     [("model.gltf", TRIANGLE_JSON), ("model.obj", OBJ), ("model.mtl", MTL), ("model.smf", SMF)]
 }

@@ -128,7 +128,7 @@ fn strip(mode: u32, indices: &str) -> (String, Vec<u8>) {
 type ModeRow = (&'static str, u32, &'static str, &'static [u32], usize, Vec<String>);
 
 #[test]
-fn strips_fans_and_lists_are_triangles_and_the_rest_is_skipped() {
+fn strips_fans_and_lists_become_triangles() {
     let smooth = "primitives have no normals; smooth ones are computed, where glTF asks for flat ones";
     let rows: [ModeRow; 6] = [
         ("list", 4, "", &[0, 1, 2, 3, 4, 5], 6, vec![format!("2 {smooth}")]),
@@ -267,7 +267,7 @@ fn lights_stand_where_their_nodes_do() {
 }
 
 #[test]
-fn what_is_skipped_is_said() {
+fn skipped_contents_give_warnings() {
     let json = with(&[
         (
             "{\"version\":\"2.0\"}",
@@ -289,7 +289,7 @@ fn what_is_skipped_is_said() {
 }
 
 #[test]
-fn a_texture_of_metal_and_roughness_is_skipped_by_name() {
+fn a_metallic_roughness_texture_is_skipped_by_name() {
     let of_material = "\"metallicFactor\":0.25";
     let json = with(&[
         (of_material, "\"metallicRoughnessTexture\":{\"index\":1},\"metallicFactor\":0.25"),
@@ -381,7 +381,7 @@ fn cameras_are_kept() {
     }
 }
 
-/// What the corners of the triangle have.
+/// The values at the corners of the triangle.
 type Corners<T> = [T; 3];
 
 /// An attribute: name, shape, component type, whether it is normalised, byte stride, bytes.

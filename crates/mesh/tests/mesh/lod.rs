@@ -1,4 +1,4 @@
-//! Levels of detail: of any mesh, without cracks, and about as far off as is said.
+//! Levels of detail of any mesh: without cracks, and with about the errors that they state.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
@@ -11,14 +11,14 @@ fn levels(mesh: &Mesh) -> LodHierarchy {
     mesh.lod_hierarchy(&AtomicBool::new(false)).expect("nothing stops it")
 }
 
-/// A number from 0 to 1 that repeats (PCG).
+/// A repeatable random number from 0 to 1 (PCG).
 fn random(seed: u32) -> f32 {
     let state = seed.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     ((word >> 22) ^ word) as f32 / u32::MAX as f32
 }
 
-/// The mesh with its vertices moved by up to so much along each axis; what is at one place stays there.
+/// The mesh with its vertices moved by up to `by` along each axis; those at one position move together.
 fn shaken(mesh: &Mesh, by: f32) -> Mesh {
     let key =
         |p: &Vec3| p.to_array().iter().fold(7, |key: u32, x| (x + 0.0).to_bits().wrapping_add(key.wrapping_mul(31)));
@@ -50,7 +50,7 @@ fn unindexed(mesh: &Mesh) -> Mesh {
     Mesh::from_parts(pick(mesh.positions()), Some(pick(mesh.normals())), None, indices).unwrap()
 }
 
-/// Meshes of one cluster and of many, with all that meshes have.
+/// Meshes of one cluster and of many, with all attributes.
 fn meshes() -> Vec<(&'static str, Mesh)> {
     let sphere = Mesh::from(UvSphere::new(1.0, 96, 48));
     let without = |left_out: &dyn Fn(usize) -> bool| {
@@ -78,12 +78,12 @@ fn meshes() -> Vec<(&'static str, Mesh)> {
     ]
 }
 
-/// The triangles to draw where groups will do by some criterion.
+/// The triangles to draw if groups are accepted by some criterion.
 fn drawn(levels: &LodHierarchy, will_do: impl FnMut(&LodGroup) -> bool) -> Vec<[u32; 3]> {
     levels.cut(will_do).into_iter().flat_map(|cluster| levels.triangles_of(cluster)).copied().collect()
 }
 
-/// How often each edge is passed one way more than the other, by places; what cancels is left out.
+/// How often each edge is passed one way more than the other, by positions; balanced edges are left out.
 fn boundary(mesh: &Mesh, triangles: &[[u32; 3]]) -> BTreeMap<[[u32; 3]; 2], i32> {
     let place = |i: u32| mesh.positions()[i as usize].to_array().map(|x| (x + 0.0).to_bits());
     let mut edges = BTreeMap::new();
@@ -97,7 +97,7 @@ fn boundary(mesh: &Mesh, triangles: &[[u32; 3]]) -> BTreeMap<[[u32; 3]; 2], i32>
     edges
 }
 
-/// What is wrong with levels of a mesh, in any of some cuts.
+/// The first fault in the levels of a mesh, in any of some cuts.
 fn fault(mesh: &Mesh, levels: &LodHierarchy) -> Option<String> {
     let (mut clusters, mut triangles) = (0, 0);
     for (number, group) in (0..).zip(&levels.groups) {
@@ -210,7 +210,7 @@ proptest! {
     }
 }
 
-/// A name, and what is done to a hierarchy.
+/// A name, and the change to a hierarchy.
 type Fault<'a> = (&'a str, &'a dyn Fn(&mut LodHierarchy));
 
 #[test]
@@ -239,7 +239,7 @@ fn planted_faults_are_found() {
 }
 
 #[test]
-fn position_errors_are_about_what_the_surfaces_are_apart() {
+fn position_errors_match_the_distance_of_the_surfaces() {
     for (name, mesh) in meshes() {
         if ["pieces", "slivers", "doubled", "one point in all"].contains(&name) {
             continue;
@@ -328,7 +328,7 @@ fn creases_and_planes_stay_as_they_are() {
 }
 
 #[test]
-fn what_cannot_be_coarser_is_left_as_it_is() {
+fn meshes_that_cannot_be_simplified_are_unchanged() {
     let meshes = [
         ("a triangle", vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![0, 1, 2]),
         ("points", vec![Vec3::ONE; 300], (0..300).collect()),
@@ -364,7 +364,7 @@ fn scale_does_not_matter_to_levels() {
 }
 
 #[test]
-fn the_same_mesh_has_the_same_levels_on_any_number_of_threads() {
+fn levels_do_not_depend_on_the_number_of_threads() {
     let [one, four] = [1, 4].map(|count| rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap());
     // One of many groups, and one of many pieces.
     for mesh in [shaken(&grid(150), 0.2), pieces(400)] {
@@ -375,6 +375,6 @@ fn the_same_mesh_has_the_same_levels_on_any_number_of_threads() {
 }
 
 #[test]
-fn making_levels_stops_when_it_is_told_to() {
+fn making_levels_can_be_stopped() {
     assert_eq!(grid(65).lod_hierarchy(&AtomicBool::new(true)), None);
 }

@@ -1,4 +1,4 @@
-//! The mesh: what is refused, what is kept, what is found.
+//! The mesh: invalid input, attributes, problems.
 
 use bevy_app::App;
 use bevy_math::{Vec2, Vec3};
@@ -191,7 +191,7 @@ fn the_plugin_stands_alone() {
 }
 
 #[test]
-fn meshes_stay_when_the_plugin_comes_late_and_when_it_comes_again() {
+fn adding_the_mesh_plugin_again_keeps_meshes() {
     let triangles = |app: &App, handle| app.world().resource::<Assets<Mesh>>().get(handle).map(Mesh::triangle_count);
     let mut app = App::new();
     // Somebody had meshes before any plugin.
@@ -207,7 +207,7 @@ fn meshes_stay_when_the_plugin_comes_late_and_when_it_comes_again() {
     assert_eq!((triangles(&app, &early), triangles(&app, &second)), (Some(12), Some(8)));
 
     let id = early.id();
-    // What nobody holds any more goes.
+    // Without a handle it is removed.
     drop(early);
     app.update();
     app.update();

@@ -78,7 +78,7 @@ fn a_triangle_far_from_the_origin_keeps_its_normal() {
 }
 
 #[test]
-fn angle_weights_do_not_see_how_a_cube_is_cut() {
+fn angle_weights_ignore_the_diagonals_of_a_cube() {
     let mut worst_uniform = 0.0_f32;
     for diagonals in 0..64 {
         let (positions, indices) = cube(diagonals);
@@ -98,7 +98,7 @@ fn angle_weights_do_not_see_how_a_cube_is_cut() {
 }
 
 #[test]
-fn weights_are_what_they_say() {
+fn weights_match_their_formulas() {
     // Two faces at a right angle share the edge from the origin to +X. At the origin face 0 (normal +Z) has the legs
     // X and a·Y, face 1 (normal −Y) the legs b·Z and X, where the second is cut back to the angle 45°.
     let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y * 3.0, Vec3::new(2.0, 0.0, 2.0)];

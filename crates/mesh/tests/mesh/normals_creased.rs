@@ -48,7 +48,7 @@ fn a_cube_is_creased_below_its_right_angle() {
 }
 
 #[test]
-fn a_number_that_is_none_creases_every_edge() {
+fn a_nan_angle_creases_every_edge() {
     let (mesh, _) = cube().with_normals(creased(f32::NAN));
     let (flat, _) = cube().with_normals(Normals::Face);
     assert_eq!((mesh.positions(), mesh.normals()), (flat.positions(), flat.normals()));
@@ -70,7 +70,7 @@ fn cone() -> (Vec<Vec3>, Vec<u32>) {
 }
 
 #[test]
-fn fans_are_walked_and_not_compared_pair_by_pair() {
+fn fans_are_walked_rather_than_compared_pairwise() {
     let (positions, indices) = cone();
     let (mesh, report) = Mesh::new(positions, indices).unwrap().with_normals(creased(60.0));
     assert!(report.is_clean());
@@ -114,7 +114,7 @@ fn a_textured_cube_with_smooth_shading() {
 }
 
 #[test]
-fn where_many_triangles_meet() {
+fn crowded_edges_are_creases() {
     // Pages of a book: triangles around one edge, each 10° from the next.
     let book = |pages: u16, step: f32| {
         let mut positions = vec![Vec3::ZERO, Vec3::Y];

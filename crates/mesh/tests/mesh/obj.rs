@@ -113,7 +113,7 @@ fn every_statement_of_a_material_is_kept() {
 }
 
 #[test]
-fn libraries_are_found_by_names_with_spaces_and_by_several_names() {
+fn material_libraries_may_have_spaces_or_several_names() {
     let folder = Folder::new();
     folder.write("my brass.mtl", "newmtl brass\n");
     folder.write("sub/red.mtl", "newmtl red\n");
@@ -125,7 +125,7 @@ fn libraries_are_found_by_names_with_spaces_and_by_several_names() {
 }
 
 #[test]
-fn what_is_skipped_is_said() {
+fn skipped_contents_give_warnings() {
     let rows: [(&str, String, &[&str]); 11] = [
         (
             "missing library",
@@ -334,7 +334,7 @@ fn concave_polygons_are_cut_along_their_insides() {
 }
 
 #[test]
-fn polygons_that_cross_themselves_are_said() {
+fn self_intersecting_polygons_give_a_warning() {
     for (name, face) in [("bow", "f 1 3 2 4"), ("twisted", "f 1 3 2 4 5")] {
         let model = load_text(&format!("{SQUARE}v 0.5 3 0\n{face}\n"));
         assert_eq!(
@@ -450,7 +450,7 @@ fn names_may_be_latin_1() {
 }
 
 #[test]
-fn a_comment_may_follow_the_name_of_a_material_which_may_hold_the_sign_itself() {
+fn material_names_may_contain_hashes_and_precede_comments() {
     let mtl = "newmtl a\nnewmtl Material #25\nnewmtl Material #26\nnewmtl b # blue\n";
     for (used, expected) in [
         ("a", Some(0)),

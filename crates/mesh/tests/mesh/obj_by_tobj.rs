@@ -100,7 +100,7 @@ fn the_same_corners_as_tobj_reads() {
 }
 
 #[test]
-fn what_tobj_does_not_read_is_read_here() {
+fn files_that_tobj_refuses_are_read() {
     let folder = Folder::new();
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let own = |text: &[u8]| {

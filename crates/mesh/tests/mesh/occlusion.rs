@@ -85,7 +85,7 @@ fn a_floor_under_a_ball_loses_what_the_ball_covers() {
         doubled += usize::from(0.21 * covered > 2.0 * OFF);
     }
     assert!(doubled > 300, "a larger ball would be found at {doubled} texels");
-    // What is farther than the reach is not there.
+    // Occluders beyond the reach do not count.
     let near = OcclusionBake { reach: 0.29, ..of_size(33, 33, 64) };
     assert!(baked(&floor, &[&ball], near).shares().iter().all(|share| *share == 1.0));
     let near = OcclusionBake { reach: 0.32, ..of_size(33, 33, 1024) };
@@ -104,7 +104,7 @@ fn a_coarse_ball_does_not_occlude_itself() {
 }
 
 #[test]
-fn what_is_beside_the_mesh_on_the_image_goes_on() {
+fn texels_beside_the_mesh_are_dilated() {
     // The floor lies on the left quarter of the image, the wall occludes it most at its left.
     let floor = sheet(Vec3::new(0.0, 0.0, -0.5), 2.0 * Vec3::X, Vec3::Z);
     let uvs = floor.uvs().expect("a sheet has them").iter().map(|uv| Vec2::new(0.25 * uv.x, uv.y)).collect();
@@ -138,7 +138,7 @@ fn it_is_the_same_every_time_and_can_be_stopped() {
 }
 
 #[test]
-fn what_cannot_be_baked_is_refused() {
+fn invalid_bakes_are_refused() {
     let plane = Mesh::from(Plane::default());
     let bake = OcclusionBake::default();
     let error = |mesh: &Mesh, bake: OcclusionBake| {

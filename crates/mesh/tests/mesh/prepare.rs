@@ -161,7 +161,7 @@ fn a_band_of_one_side_cannot_be_wound_alike() {
 }
 
 #[test]
-fn what_shows_nothing_is_left_out() {
+fn repair_drops_invisible_triangles() {
     let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::X * 0.5];
     let indices = vec![0, 1, 2, 0, 1, 4, 2, 1, 0, 1, 1, 1];
     let (mesh, report) = Mesh::new(positions, indices).unwrap().repaired().unwrap();
@@ -276,7 +276,7 @@ fn simplifying_at_any_scale_and_to_any_number() {
 }
 
 #[test]
-fn simplified_meshes_are_about_as_near_as_can_be() {
+fn simplified_meshes_are_nearly_optimal() {
     // N equilateral triangles with an area of 4π/N each are off a unit sphere by 8π/(3√3·N) in their middles.
     let sphere = Mesh::from(UvSphere::new(1.0, 128, 64));
     for triangles in [200, 1000, 4000] {

@@ -277,7 +277,7 @@ fn a_file_of_something_else_has_few_warnings() {
 }
 
 #[test]
-fn the_meshes_of_the_lecture_have_the_normals_of_hand() {
+fn lecture_meshes_have_the_normals_computed_by_hand() {
     // As they are printed. Each normal is the sum of the unit normals of the triangles around the vertex, normalised.
     let cube = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n\
         f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n";

@@ -66,7 +66,7 @@ fn solids_become_parts_and_oddities_are_said() {
 
     let against = load(ascii().replace("normal 0 0 1", "normal 0 0 -1"));
     assert_eq!(against.warnings, ["2 triangles have a normal that points against their winding; the winding counts"]);
-    // What programs write for degenerate triangles is of no account.
+    // The normals of degenerate triangles are ignored.
     assert!(load(ascii().replace("normal 0 0 1", "normal nan 0 -inf")).warnings.is_empty());
     let odd = load(ascii().replace("endsolid", "color 1 0 0\nendsolid"));
     assert_eq!(odd.warnings, ["model.stl:16: `color` is skipped"]);

@@ -16,8 +16,8 @@ fn volume(mesh: &Mesh) -> f64 {
     parts.sum::<f64>() / 6.0
 }
 
-/// What every surface promises: unit normals, on the side from which the triangles wind counter-clockwise; texture
-/// coordinates in the image; no degenerate triangle.
+/// Checks the invariants of every surface: unit normals, on the side from which the triangles wind counter-clockwise;
+/// texture coordinates in the image; no degenerate triangle.
 fn check(name: &str, mesh: &Mesh) {
     for n in mesh.normals() {
         // Rounded from f64: half a step in each coordinate.
@@ -36,7 +36,7 @@ fn check(name: &str, mesh: &Mesh) {
 }
 
 #[test]
-fn every_surface_keeps_the_promises() {
+fn every_surface_keeps_the_invariants() {
     let rows: Vec<(&str, Mesh, usize, usize, usize)> = vec![
         // Vertices, triangles, open edges.
         ("plane 1", Plane::default().into(), 4, 2, 4),

@@ -1,4 +1,4 @@
-//! What the tests of surfaces share.
+//! Shared by the tests of surfaces.
 
 use bevy_math::DVec3;
 use halfway_mesh::BezierPatch;

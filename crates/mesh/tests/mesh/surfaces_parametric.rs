@@ -373,7 +373,7 @@ fn a_mesh_knows_its_surface() {
 }
 
 #[test]
-fn the_smallest_the_largest_and_the_longest_keep_their_promises() {
+fn extreme_sizes_and_ratios_keep_the_invariants() {
     // Where there is room in the range of lengths, one is as much longer as it may be.
     for (scale, factor) in [(1e-30_f32, 1.0), (1e-15, 1e5), (1.0, 1e5), (1e15, 1e5), (5e29, 1.0)] {
         let long = scale * factor;
@@ -402,7 +402,7 @@ fn the_smallest_the_largest_and_the_longest_keep_their_promises() {
 }
 
 #[test]
-fn what_is_out_of_range_is_refused_by_name() {
+fn invalid_fields_are_refused_by_name() {
     let count = |rows, columns| Tessellation::Count { rows, columns };
     let torus = Torus { radius: 1.0, tube: 0.25 };
     let nan = f64::NAN;

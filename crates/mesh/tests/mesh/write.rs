@@ -177,7 +177,7 @@ fn farthest(a: &[Vec3], b: &[Vec3]) -> f64 {
 }
 
 #[test]
-fn quantised_meshes_come_back_within_what_is_said() {
+fn quantised_meshes_are_read_within_their_error() {
     let folder = Folder::new();
     let path = folder.path().join("model.glb");
     let placed = Mat4::from_scale_rotation_translation(
@@ -218,7 +218,7 @@ fn quantised_meshes_come_back_within_what_is_said() {
 }
 
 #[test]
-fn text_formats_say_what_they_lose() {
+fn text_formats_warn_of_losses() {
     let folder = Folder::new();
     let model = scene();
     let common = ["2 places of parts; their vertices are moved instead", "2 lights", "2 cameras"];
@@ -265,7 +265,7 @@ fn text_formats_say_what_they_lose() {
 }
 
 #[test]
-fn what_cannot_be_written_leaves_nothing_behind() {
+fn failed_writes_leave_no_file() {
     let folder = Folder::new();
     let model = of_parts(vec![part("", odd_triangle(), None)]);
     let message = |name: &str, model: &Model| {

@@ -13,7 +13,7 @@ use super::format::ending;
 use super::partial::Partial;
 use super::picture::{not_empty, png_encoder};
 
-/// How long a frame is shown: `numerator / denominator` seconds.
+/// The duration of a frame: `numerator / denominator` seconds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameDelay {
     /// The numerator; 0 is as fast as the viewer can.
@@ -23,14 +23,14 @@ pub struct FrameDelay {
 }
 
 impl FrameDelay {
-    /// So many frames in a second; 0 is taken as 1.
+    /// For so many frames a second; 0 is taken as 1.
     pub const fn per_second(frames: u16) -> Self {
         Self { numerator: 1, denominator: if frames == 0 { 1 } else { frames } }
     }
 }
 
 impl Default for FrameDelay {
-    /// 30 frames in a second.
+    /// 30 frames a second.
     fn default() -> Self {
         Self::per_second(30)
     }
@@ -38,7 +38,24 @@ impl Default for FrameDelay {
 
 /// Writes an animated PNG of 8 bits a channel, frame by frame. Viewers that do not animate show the first frame.
 ///
-/// The file appears when [`finish`](Self::finish) is called; a writer that is dropped before leaves nothing behind.
+/// The file appears when [`finish`](Self::finish) is called; a writer that is dropped before leaves no file.
+///
+/// ```
+/// use halfway_lighting::Encoding;
+/// use halfway_record::output::{AnimationWriter, FrameDelay};
+/// use halfway_render::Picture;
+///
+/// let file = std::env::temp_dir().join(format!("blink_{}.png", std::process::id()));
+/// let delay = FrameDelay::per_second(2);
+/// let mut animation = AnimationWriter::create(&file, (4, 4), 2, delay, Encoding::Srgb)?;
+/// for gray in [0, 255] {
+///     animation.frame(&Picture::Byte(image::RgbaImage::from_pixel(4, 4, image::Rgba([gray, gray, gray, 255]))))?;
+/// }
+/// animation.finish()?;
+/// assert!(file.exists());
+/// # std::fs::remove_file(file).unwrap();
+/// # Ok::<(), halfway_record::output::OutputError>(())
+/// ```
 pub struct AnimationWriter {
     // Dropped first, so that the file is closed before it is removed.
     writer: png::Writer<BufWriter<File>>,
@@ -76,7 +93,7 @@ impl AnimationWriter {
         Ok(Self { writer, partial, size, encoding, written: 0, frames })
     }
 
-    /// Whether a file of this name can hold an animation.
+    /// Checks that a file of this name can hold an animation.
     ///
     /// # Errors
     /// [`OutputError::UnknownEnding`] where it does not end in `.png` or `.apng`.
@@ -87,7 +104,7 @@ impl AnimationWriter {
         }
     }
 
-    /// Adds the next frame. One drawn in floating point is clamped and encoded.
+    /// Adds the next frame. A picture in floating point is clamped and encoded.
     ///
     /// # Errors
     /// The frame has another size than the animation, there are more frames than announced, or it cannot be written.
@@ -110,7 +127,7 @@ impl AnimationWriter {
         Ok(())
     }
 
-    /// Ends the animation and puts the file in its place.
+    /// Ends the animation and moves the file to its place.
     ///
     /// # Errors
     /// Frames are missing, or the file cannot be written.

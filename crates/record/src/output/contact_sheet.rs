@@ -7,10 +7,23 @@ use image::{Rgba, RgbaImage};
 
 use super::encode::{quantise, to_linear};
 
-/// A grid of frames, each made smaller, row by row from the top left.
+/// A grid of frames, scaled down, row by row from the top left.
 ///
-/// Frames are made smaller as light, not as encoded values, so that fine bright lines keep their brightness. Only the
-/// small ones are kept.
+/// Frames are averaged in linear light, so that fine bright lines keep their brightness. Only the small ones are
+/// stored.
+///
+/// ```
+/// use halfway_lighting::Encoding;
+/// use halfway_record::output::ContactSheet;
+/// use halfway_render::Picture;
+///
+/// let mut sheet = ContactSheet::new(2, 8, Encoding::Srgb);
+/// for _ in 0..4 {
+///     sheet.push(&Picture::Byte(image::RgbaImage::new(16, 16)));
+/// }
+/// // Two columns and two rows of 8 pixels, with gaps of 4.
+/// assert_eq!((sheet.len(), sheet.picture().dimensions()), (4, (28, 28)));
+/// ```
 #[derive(Clone, Debug)]
 pub struct ContactSheet {
     columns: u32,

@@ -1,10 +1,10 @@
-//! From intensities to the numbers that a file holds, and back.
+//! Conversion of intensities to the values of a file, and back.
 
 use halfway_lighting::Encoding;
 use halfway_render::Picture;
 use image::{Rgb, Rgb32FImage, RgbImage};
 
-/// min(I, 1), with 0 for what is no intensity.
+/// min(I, 1); NaN and negative numbers become 0.
 fn clamp(intensity: f32) -> f32 {
     if intensity.is_nan() { 0.0 } else { intensity.clamp(0.0, 1.0) }
 }
@@ -15,8 +15,8 @@ pub(super) fn quantise(intensity: f32, encoding: Encoding, most: u16) -> u16 {
     (encoding.encode(clamped) * f64::from(most)).round() as u16
 }
 
-/// The picture with 8 bits a channel, without its alpha: as it is if it was drawn so, else clamped and by
-/// `encoding`.
+/// The picture with 8 bits a channel, without its alpha: unchanged if it was drawn in bytes, else clamped and encoded
+/// by `encoding`.
 pub fn to_bytes(picture: &Picture, encoding: Encoding) -> RgbImage {
     let (width, height) = picture.dimensions();
     match picture {
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_survive_the_way_to_intensities_and_back() {
+    fn bytes_survive_decoding_and_encoding() {
         let all = RgbaImage::from_fn(256, 1, |x, _| Rgba([x as u8, 255 - x as u8, 7, 255]));
         for encoding in [Encoding::Srgb, Encoding::Raw] {
             let linear = to_linear(&Picture::Byte(all.clone()), encoding);

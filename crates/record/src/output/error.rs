@@ -1,11 +1,11 @@
-//! What can go wrong while a picture is written.
+//! Errors of writing pictures.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// A picture that could not be written. Nothing is left where it should have been.
+/// Why a picture could not be written. No partial file is left.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OutputError {
@@ -14,20 +14,20 @@ pub enum OutputError {
     UnknownEnding {
         /// The file.
         file: PathBuf,
-        /// The endings that are known, in words.
+        /// The known endings, in words.
         known: &'static str,
     },
-    /// The format does not come with that number of bits.
+    /// The format does not support this number of bits.
     #[error("{}: {bits} bits a channel were asked for; expected {expected}", file.display())]
     Bits {
         /// The file.
         file: PathBuf,
-        /// What was asked for.
+        /// The number of bits.
         bits: u32,
-        /// What the format can hold, in words.
+        /// The bits that the format supports, in words.
         expected: &'static str,
     },
-    /// A picture of 8 bits a channel is to be written with more.
+    /// A picture of 8 bits a channel in a format of more.
     #[error(
         "{}: the picture was drawn with 8 bits a channel, which this format would only pretend to refine; \
          draw it in floating point",
@@ -66,28 +66,28 @@ pub enum OutputError {
         /// The animation's height in pixels.
         height: u32,
     },
-    /// An animation got more or fewer frames than it was to have.
+    /// An animation got more or fewer frames than announced.
     #[error("{}: {found} frames were given; expected {expected} as announced, and at least 1", file.display())]
     FrameCount {
         /// The file.
         file: PathBuf,
-        /// How many frames were given.
+        /// The number of frames given.
         found: u32,
-        /// How many were announced.
+        /// The number announced.
         expected: u32,
     },
-    /// There is something at the file's place that is not a file, such as a folder.
+    /// The path exists but is not a file, such as a folder.
     #[error("{}: is there already, and is not a file", file.display())]
     NotAFile {
         /// The file.
         file: PathBuf,
     },
-    /// The system did not let it be written.
+    /// The system refused to write it.
     #[error("{}: cannot be written: {source}", file.display())]
     Io {
         /// The file.
         file: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// The encoder failed.
@@ -95,7 +95,7 @@ pub enum OutputError {
     Encode {
         /// The file.
         file: PathBuf,
-        /// What the encoder said.
+        /// The encoder's message.
         message: String,
     },
 }

@@ -7,6 +7,16 @@ use halfway_render::Pixels;
 use super::OutputError;
 
 /// A format of still pictures.
+///
+/// ```
+/// use std::path::Path;
+/// use halfway_record::output::PictureFormat;
+///
+/// assert_eq!(PictureFormat::from_path(Path::new("teapot.PNG"), None)?, PictureFormat::Png8);
+/// assert_eq!(PictureFormat::from_path(Path::new("teapot.png"), Some(16))?, PictureFormat::Png16);
+/// assert!(PictureFormat::from_path(Path::new("teapot.jpg"), None).is_err());
+/// # Ok::<(), halfway_record::output::OutputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PictureFormat {
     /// PNG, 8 bits a channel: clamped, and encoded as the camera says.
@@ -18,12 +28,12 @@ pub enum PictureFormat {
 }
 
 impl PictureFormat {
-    /// The format for a file by its ending: `.png` (8 bits unless `bits` says 16) or `.exr` (32 bits). Upper and lower
-    /// case are the same.
+    /// The format of a file by its ending, in upper or lower case: `.png` (8 bits unless `bits` says 16) or `.exr` (32
+    /// bits).
     ///
     /// # Errors
     /// [`OutputError::UnknownEnding`], and [`OutputError::Bits`] where the format has no such number of bits.
-    pub fn of(file: &Path, bits: Option<u32>) -> Result<Self, OutputError> {
+    pub fn from_path(file: &Path, bits: Option<u32>) -> Result<Self, OutputError> {
         let refuse = |bits, expected| Err(OutputError::Bits { file: file.to_owned(), bits, expected });
         match (ending(file).as_str(), bits) {
             ("png", None | Some(8)) => Ok(Self::Png8),
@@ -35,7 +45,7 @@ impl PictureFormat {
         }
     }
 
-    /// What the pixels of a headless picture have to be so that this format can hold it without loss.
+    /// The pixels of a headless picture that this format holds without loss.
     pub fn pixels(self) -> Pixels {
         match self {
             Self::Png8 => Pixels::Byte,

@@ -1,20 +1,20 @@
 //! Pictures on disk: PNG with 8 or 16 bits, EXR in floating point, animated PNG, and contact sheets.
 //!
 //! Every file is written beside its place under another name and moved there when it is complete, so that an
-//! interrupted run leaves no half picture. All pictures are opaque and have three channels; the top row comes first.
+//! interrupted run leaves no partial picture. All pictures are opaque and have three channels; the top row comes first.
 //!
-//! ```no_run
-//! use halfway_record::output::{PictureFormat, write_picture};
+//! ```
 //! use halfway_lighting::Encoding;
+//! use halfway_record::output::{PictureFormat, write_picture};
 //! use halfway_render::Picture;
-//! # fn picture() -> Picture { unimplemented!() }
-//! # fn main() -> Result<(), halfway_record::output::OutputError> {
-//! let file = "teapot.png".as_ref();
-//! let format = PictureFormat::of(file, Some(16))?;
-//! let picture: Picture = picture(); // drawn with `format.pixels()`
-//! write_picture(&picture, file, format, Encoding::Srgb)?;
-//! # Ok(())
-//! # }
+//!
+//! // In 16 bits, a picture drawn in floating point.
+//! let picture = Picture::Float(image::Rgba32FImage::from_pixel(2, 2, image::Rgba([0.5, 0.25, 2.0, 1.0])));
+//! let file = std::env::temp_dir().join(format!("gray_{}.png", std::process::id()));
+//! write_picture(&picture, &file, PictureFormat::from_path(&file, Some(16))?, Encoding::Srgb)?;
+//! assert!(file.exists());
+//! # std::fs::remove_file(file).unwrap();
+//! # Ok::<(), halfway_record::output::OutputError>(())
 //! ```
 
 mod animation;

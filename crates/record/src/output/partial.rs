@@ -7,10 +7,10 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::OutputError;
 
-/// Writes a text to a file, complete or not at all. Folders on the way that are missing are made.
+/// Writes a text to a file, complete or not at all. Missing folders are created.
 ///
 /// # Errors
-/// What keeps the file from being written; what was there before is then still there.
+/// The error that kept the file from being written; an existing file is then unchanged.
 pub fn write_text(file: &Path, text: &str) -> Result<(), OutputError> {
     let (partial, mut writer) = Partial::create(file)?;
     writer.write_all(text.as_bytes()).and_then(|()| writer.flush()).map_err(|source| OutputError::io(file, source))?;
@@ -19,27 +19,27 @@ pub fn write_text(file: &Path, text: &str) -> Result<(), OutputError> {
     partial.keep()
 }
 
-/// A file on its way. Dropped before [`Partial::keep`], it is removed.
+/// An incomplete file. It is removed if it is dropped before [`Partial::keep`].
 #[derive(Debug)]
 pub(super) struct Partial {
-    /// The name under which it was asked for.
+    /// The name that was given.
     file: PathBuf,
-    /// Where it goes: `file`, with links followed.
+    /// The final path: `file`, with links followed.
     target: PathBuf,
-    /// Where it is until then.
+    /// The path until then.
     waiting: PathBuf,
     kept: bool,
 }
 
 impl Partial {
-    /// Opens a new file beside `file`, on the same file system so that it can be moved there at once. Folders on the
-    /// way that are missing are made.
+    /// Opens a new file beside `file`, on the same file system so that it can be moved there atomically. Missing
+    /// folders are created.
     pub(super) fn create(file: &Path) -> Result<(Self, BufWriter<File>), OutputError> {
         let io_error = |source| OutputError::io(file, source);
         if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             fs::create_dir_all(folder).map_err(io_error)?;
         }
-        // A link keeps its name and gets a new target's content, as it would if it were written directly.
+        // A link keeps its name and its target gets the content, as if it were written directly.
         let target = match fs::canonicalize(file) {
             Ok(target) => target,
             Err(error) if error.kind() == io::ErrorKind::NotFound => file.to_owned(),
@@ -69,13 +69,13 @@ impl Partial {
 impl Drop for Partial {
     fn drop(&mut self) {
         if !self.kept {
-            // Nobody is left to tell; the error that led here is already on its way.
+            // The error that led here is already reported.
             let _ = fs::remove_file(&self.waiting);
         }
     }
 }
 
-/// A name of its own for this process and this file.
+/// A name that is unique to this process and this file.
 fn beside(target: &Path) -> Option<PathBuf> {
     static COUNTER: AtomicU32 = AtomicU32::new(0);
     let number = COUNTER.fetch_add(1, Ordering::Relaxed);

@@ -11,16 +11,15 @@ use super::encode::{quantise, to_bytes};
 use super::partial::Partial;
 use super::{OutputError, PictureFormat};
 
-/// Writes a picture to a file, replacing one that is there.
+/// Writes a picture to a file, replacing an existing one.
 ///
 /// `encoding` is the camera's. In a PNG, a picture drawn in floating point is clamped to [0, 1] and encoded with it;
-/// one drawn in bytes is encoded already. A PNG of sRGB values says so (`sRGB`, `gAMA` and `cHRM` chunks); raw values
-/// carry no such chunk, since they are meant to be seen as they are. In an EXR the intensities stand as they were
-/// drawn.
+/// a picture in bytes is encoded already. A PNG of sRGB values is tagged (`sRGB`, `gAMA` and `cHRM` chunks); raw values
+/// are not, since they are meant to be displayed as they are. In an EXR the intensities are stored unchanged.
 ///
 /// # Errors
-/// [`OutputError::TooCoarse`] for a byte picture in a format that holds more, [`OutputError::Empty`] for one without
-/// pixels, and whatever keeps the file from being written. The file then is as it was before.
+/// [`OutputError::TooCoarse`] for a byte picture in a format of more bits, [`OutputError::Empty`] for one without
+/// pixels, and any error of the system or the encoder. An existing file is then unchanged.
 pub fn write_picture(
     picture: &Picture,
     file: &Path,
@@ -44,7 +43,7 @@ pub fn write_picture(
     }
 }
 
-/// Three channels of 16 bits, the high byte first as PNG has them.
+/// Three channels of 16 bits, in big-endian order as in PNG.
 fn sixteen_bits(image: &Rgba32FImage, encoding: Encoding) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(image.as_raw().len() / 4 * 6);
     for pixel in image.pixels() {
@@ -74,7 +73,7 @@ fn write_png(
     partial.keep()
 }
 
-/// An encoder for pictures of three channels, with the chunks that say what the values mean.
+/// An encoder for pictures of three channels, with the chunks that tag the encoding of the values.
 pub(super) fn png_encoder<W: Write>(
     writer: W,
     width: u32,

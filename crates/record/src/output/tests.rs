@@ -13,7 +13,7 @@ use image::{DynamicImage, Rgba, Rgba32FImage, RgbaImage};
 
 use super::*;
 
-/// A folder of its own for a test, removed at its end.
+/// A temporary folder of a test, removed at its end.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -84,14 +84,14 @@ fn formats_by_ending_and_bits() {
         ("png", None, Err("png: unknown ending; expected a file that ends in .png or .exr")),
         ("", None, Err(": unknown ending; expected a file that ends in .png or .exr")),
     ] {
-        let found = PictureFormat::of(Path::new(file), bits).map_err(|error| error.to_string());
+        let found = PictureFormat::from_path(Path::new(file), bits).map_err(|error| error.to_string());
         assert_eq!(found, expected.map_err(str::to_owned), "{file} {bits:?}");
     }
     assert_eq!([Png8, Png16, Exr].map(PictureFormat::pixels), [Pixels::Byte, Pixels::Float, Pixels::Float]);
 }
 
 #[test]
-fn a_png_of_bytes_is_those_bytes() {
+fn a_png_of_bytes_stores_them_unchanged() {
     let folder = Folder::new();
     let file = folder.file("a.png");
     for (encoding, marked) in [(Encoding::Srgb, true), (Encoding::Raw, false)] {
@@ -128,7 +128,7 @@ fn a_png_of_floats_is_clamped_and_encoded() {
 }
 
 #[test]
-fn an_exr_holds_every_number_as_it_is() {
+fn an_exr_stores_every_number_unchanged() {
     let folder = Folder::new();
     let file = folder.file("a.exr");
     for encoding in [Encoding::Srgb, Encoding::Raw] {
@@ -145,7 +145,7 @@ fn an_exr_holds_every_number_as_it_is() {
 }
 
 #[test]
-fn pictures_that_cannot_be_written_leave_nothing() {
+fn failed_pictures_leave_no_file() {
     let folder = Folder::new();
     let file = folder.file("a.png");
     let exr = folder.file("a.exr");
@@ -170,7 +170,7 @@ fn pictures_that_cannot_be_written_leave_nothing() {
 }
 
 #[test]
-fn missing_folders_are_made() {
+fn missing_folders_are_created() {
     let folder = Folder::new();
     let file = folder.file("some/where/a.png");
     write_picture(&bytes(), &file, PictureFormat::Png8, Encoding::Srgb).unwrap();
@@ -179,7 +179,7 @@ fn missing_folders_are_made() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_keeps_pointing_where_it_did() {
+fn a_link_stays_a_link() {
     let folder = Folder::new();
     let (target, link) = (folder.file("target.png"), folder.file("link.png"));
     fs::write(&target, "old").unwrap();
@@ -221,7 +221,7 @@ fn an_animation_has_its_frames_and_their_delay() {
 }
 
 #[test]
-fn an_animation_that_is_not_as_announced_leaves_nothing() {
+fn a_wrong_number_of_frames_leaves_no_file() {
     let folder = Folder::new();
     let file = folder.file("a.apng");
     let create =
@@ -254,7 +254,7 @@ fn an_animation_that_is_not_as_announced_leaves_nothing() {
 }
 
 #[test]
-fn a_contact_sheet_shows_every_frame_in_its_place() {
+fn contact_sheets_lay_frames_out_in_a_grid() {
     let mut sheet = ContactSheet::new(2, 2, Encoding::Srgb);
     assert!(sheet.is_empty());
     for grey in [10, 20, 30] {
@@ -274,7 +274,7 @@ fn a_contact_sheet_shows_every_frame_in_its_place() {
 }
 
 #[test]
-fn frames_are_made_smaller_as_light() {
+fn frames_are_scaled_down_in_linear_light() {
     let stripes = RgbaImage::from_fn(64, 64, |_, y| Rgba(if y % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] }));
     // Half the light is 0.5 in linear intensity: 188 of 255 in sRGB, 128 raw.
     for (encoding, expected) in [(Encoding::Srgb, 188), (Encoding::Raw, 128)] {
@@ -287,7 +287,7 @@ fn frames_are_made_smaller_as_light() {
 }
 
 #[test]
-fn texts_are_complete_or_not_there() {
+fn texts_are_written_whole_or_not_at_all() {
     let folder = std::env::temp_dir().join(format!("halfway-write-text-{}", std::process::id()));
     let file = folder.join("new/page.html");
     write_text(&file, "one").unwrap();

@@ -1,4 +1,4 @@
-//! Recordings: what they write, in parts and with smooth motion, and what they refuse.
+//! Recordings: in parts, with smoothing, and invalid ones.
 
 mod parts;
 mod refused;

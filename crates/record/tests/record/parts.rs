@@ -1,4 +1,4 @@
-//! A part of a recording is what it is in the whole.
+//! A part of a recording equals the same frames of the whole.
 
 use bevy_app::{App, Update};
 use bevy_ecs::prelude::*;
@@ -14,10 +14,10 @@ const SIZE: UVec2 = UVec2::new(40, 30);
 #[derive(Resource, Default)]
 struct Sizes(Vec<UVec2>);
 
-/// Red before which nothing stands, another in each frame.
+/// The red of the background, another in each frame.
 const REDS: [f32; 6] = [8.0, 4.0, 2.0, 2.0, 1.0, 0.5];
 
-/// What was drawn, by the oracle, and the sizes that all frames ran at.
+/// The frames drawn by the oracle, and the sizes that all frames ran at.
 fn recorded(frames: Range<u32>, intensity: Intensity) -> (Vec<(u32, f32)>, Vec<UVec2>) {
     let mut app = App::new();
     app.init_resource::<Sizes>();
@@ -52,12 +52,12 @@ fn frames_before_the_first_run_and_are_small() {
 }
 
 #[test]
-fn where_frames_follow_each_other_those_before_are_drawn_in_full() {
+fn dependent_frames_before_the_first_are_drawn_in_full() {
     let smoothed = Intensity::Renormalize { smoothing: 0.75 };
     let (whole, _) = recorded(0..6, smoothed);
     let (part, sizes) = recorded(3..6, smoothed);
     assert_eq!(sizes, [SIZE; 6]);
     assert_eq!((part.len(), &part[3..]), (6, &whole[3..]));
-    // What would be seen if the frames before were not drawn.
+    // The result if the frames before were not drawn.
     assert!((recorded(3..6, Intensity::Renormalize { smoothing: 0.0 }).0[0].1 - part[3].1).abs() > 0.1);
 }

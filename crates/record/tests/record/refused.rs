@@ -1,4 +1,4 @@
-//! What cannot be recorded is refused before anything is drawn.
+//! Invalid recordings are refused before anything is drawn.
 
 use bevy_app::App;
 use halfway_record::output::OutputError;
@@ -12,7 +12,7 @@ fn refused(recording: &Recording) -> RecordError {
 }
 
 #[test]
-fn an_animation_in_another_format_is_refused_before_the_first_frame() {
+fn an_animation_in_another_format_is_refused_early() {
     for name in ["turn.exr", "turn.gif", "turn"] {
         let recording = Recording { frames: 0..2, ..Recording::new(name.into()) };
         let error = refused(&recording);

@@ -1,4 +1,4 @@
-//! Renormalised frames of the reference renderer follow each other.
+//! Renormalised frames of the reference renderer depend on the frame before.
 
 use bevy_app::App;
 use bevy_math::UVec2;
@@ -7,10 +7,10 @@ use halfway_record::{FrameToDraw, ReferenceDrawing};
 use halfway_render::{Picture, Pixels};
 use std::ops::ControlFlow;
 
-/// Red before which nothing stands, frame by frame.
+/// The red of the background, frame by frame.
 const REDS: [f32; 8] = [4.0, 4.0, 2.0, 2.0, 8.0, 0.5, 0.5, 0.5];
 
-/// What the frames are divided by under this policy; `None` where another one draws.
+/// The divisors of the frames under this policy.
 fn divisors(policies: impl Fn(usize) -> Intensity) -> Vec<f64> {
     let mut app = App::new();
     let camera = app.world_mut().spawn(Camera::default()).id();
@@ -26,7 +26,7 @@ fn divisors(policies: impl Fn(usize) -> Intensity) -> Vec<f64> {
     REDS.into_iter().enumerate().map(frame).collect()
 }
 
-/// By hand: the first frame has none before it; of each later one `smoothing` of the last divisor stays.
+/// By hand: the first frame has none before it; for later ones the fraction `smoothing` of the last divisor is kept.
 fn expected(smoothing: f64) -> Vec<f64> {
     let mut last = None;
     let follow = |red: f32| {
@@ -42,7 +42,7 @@ fn expected(smoothing: f64) -> Vec<f64> {
 const ROUNDING: f64 = 1e-6;
 
 #[test]
-fn smoothing_keeps_its_share_of_the_frame_before() {
+fn smoothing_keeps_a_fraction_of_the_last_divisor() {
     for smoothing in [0.0, 0.25, 0.75] {
         let found = divisors(|_| Intensity::Renormalize { smoothing });
         let expected = expected(smoothing.into());
@@ -50,13 +50,13 @@ fn smoothing_keeps_its_share_of_the_frame_before() {
             assert!((found / expected - 1.0).abs() < ROUNDING, "{smoothing}, frame {number}: {found} for {expected}");
         }
     }
-    // What would be seen if nothing were kept.
+    // The result without smoothing.
     let (with, without) = (expected(0.75), expected(0.0));
     assert!(with.iter().zip(without).any(|(with, without)| (with / without - 1.0).abs() > 0.5));
 }
 
 #[test]
-fn another_policy_between_forgets_the_frame_before() {
+fn another_policy_between_resets_the_divisor() {
     let clamped =
         |number: usize| if number == 4 { Intensity::Clamp } else { Intensity::Renormalize { smoothing: 0.75 } };
     let found = divisors(clamped);

@@ -1,4 +1,4 @@
-//! Two pictures, some rows at a time.
+//! Pairs of pictures, a band of rows at a time.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::Image;
 
-/// Two pictures that cannot be compared.
+/// The error of comparing pictures of different sizes.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[error(
     "the actual picture is {} × {} pixels and the expected one {} × {}; only pictures of one size can be compared",
@@ -19,13 +19,34 @@ pub struct SizeMismatch {
     pub expected: (u32, u32),
 }
 
-/// A picture whose rows can be had some at a time: an [`Image`], or what is read from a file and would take too much
-/// memory as one.
+/// A picture that is read by ranges of rows: an [`Image`], or a file that would take too much memory as one.
+///
+/// ```
+/// use std::ops::Range;
+/// use halfway_lighting::Encoding;
+/// use halfway_reference::Image;
+/// use halfway_reference::metrics::{PictureRows, compare};
+///
+/// /// A gradient that is never in memory as a whole.
+/// struct Gradient;
+///
+/// impl PictureRows for Gradient {
+///     fn dimensions(&self) -> (u32, u32) {
+///         (1000, 5000)
+///     }
+///     fn rows(&self, rows: Range<u32>) -> Image {
+///         let row = |y: u32| vec![[f64::from(y) / 5000.0; 3]; 1000];
+///         Image::new(1000, rows.len() as u32, rows.flat_map(row).collect())
+///     }
+/// }
+///
+/// assert_eq!(compare(&Gradient, &Gradient, Encoding::Raw)?.equal, 1.0);
+/// # Ok::<(), halfway_reference::metrics::SizeMismatch>(())
+/// ```
 pub trait PictureRows {
     /// Width and height in pixels.
     fn dimensions(&self) -> (u32, u32);
-    /// The rows `rows.start` to `rows.end` − 1 as a picture of their own. What they cover is known of all rows or of
-    /// none.
+    /// The rows `rows.start` to `rows.end` − 1 as a picture. Coverage is known for all rows or for none.
     fn rows(&self, rows: Range<u32>) -> Image;
 }
 
@@ -47,7 +68,7 @@ pub(super) struct BandPairs<'a> {
     pub(super) size: (u32, u32),
 }
 
-/// Some rows of both pictures.
+/// A range of rows of both pictures.
 pub(super) struct Band {
     /// The first row's number.
     pub(super) first: u32,
@@ -56,7 +77,7 @@ pub(super) struct Band {
 }
 
 impl<'a> BandPairs<'a> {
-    pub(super) fn of(actual: &'a dyn PictureRows, expected: &'a dyn PictureRows) -> Result<Self, SizeMismatch> {
+    pub(super) fn new(actual: &'a dyn PictureRows, expected: &'a dyn PictureRows) -> Result<Self, SizeMismatch> {
         let (size, other) = (actual.dimensions(), expected.dimensions());
         if size == other {
             Ok(Self { actual, expected, size })

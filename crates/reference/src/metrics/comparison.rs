@@ -10,38 +10,50 @@ use super::ranks::{PERCENTILES, nearest_rank, percentile, percentile_of_all};
 use super::statistics::{ChannelSums, Errors, Worst};
 use crate::Image;
 
-/// How far an actual picture is from an expected one.
+/// The errors of an actual picture relative to an expected one.
 ///
-/// The figures in [`linear`](Self::linear) and [`steps`](Self::steps) and [`equal`](Self::equal) are over the pixels
-/// that count: those that both pictures cover, or all where either does not know what it covers; never one that is not
-/// finite.
+/// [`linear`](Self::linear), [`steps`](Self::steps) and [`equal`](Self::equal) are over the counted pixels: those that
+/// both pictures cover, or all where the coverage of either is unknown; never one that is not finite.
 ///
-/// Displayed it is one line that says where and how far off; [`table`](Self::table) shows every figure.
+/// `Display` writes one line with the largest error and its pixel; [`table`](Self::table) shows every figure.
+///
+/// ```
+/// use halfway_lighting::Encoding;
+/// use halfway_reference::Image;
+/// use halfway_reference::metrics::compare;
+///
+/// let expected = Image::new(2, 1, vec![[0.5; 3], [0.25; 3]]);
+/// let actual = Image::new(2, 1, vec![[0.5; 3], [0.27; 3]]);
+/// let comparison = compare(&actual, &expected, Encoding::Srgb)?;
+/// assert_eq!((comparison.anywhere.at, comparison.equal), ((1, 0), 0.5));
+/// assert!(comparison.is_within(5) && !comparison.is_within(2));
+/// # Ok::<(), halfway_reference::metrics::SizeMismatch>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// Width and height of both, in pixels.
     pub size: (u32, u32),
-    /// What a step is a step of.
+    /// The encoding of the steps.
     pub encoding: Encoding,
-    /// Pixels that count.
+    /// The number of counted pixels.
     pub counted: usize,
-    /// What the pictures cover, where both know.
+    /// The coverage of the pictures, if it is known for both.
     pub coverage: Option<Coverage>,
     /// Pixels with a NaN or an infinity in either picture, if there are any.
     pub not_finite: Option<NotFinite>,
-    /// The brightest less the darkest channel of the expected picture's finite pixels, linear.
+    /// The brightest minus the darkest channel of the expected picture's finite pixels, linear.
     pub range: f64,
     /// Errors in linear intensity.
     pub linear: Errors,
     /// Errors in steps of 1/255: both pictures are clamped, encoded and rounded to bytes before.
     pub steps: Errors,
-    /// The share of counted pixels that are equal in all three bytes; 1 where nothing is counted.
+    /// The fraction of counted pixels that are equal in all three bytes; 1 where nothing is counted.
     pub equal: f64,
-    /// The largest difference in steps at any finite pixel, whatever covers it.
+    /// The largest difference in steps at any finite pixel, whatever its coverage.
     pub anywhere: Difference,
 }
 
-/// A difference in bytes, and where it is.
+/// A difference in bytes, and its pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Difference {
     /// The largest channel's difference, in steps of 1/255.
@@ -50,10 +62,10 @@ pub struct Difference {
     pub at: (u32, u32),
 }
 
-/// Pixels that hold no number.
+/// Pixels with a NaN or an infinity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NotFinite {
-    /// How many.
+    /// Their number.
     pub count: usize,
     /// Column and row of the first, row by row.
     pub first: (u32, u32),
@@ -63,8 +75,8 @@ pub struct NotFinite {
     pub expected: [f64; 3],
 }
 
-/// Measures how far `actual` is from `expected`; `encoding` says what the bytes of an 8-bit picture mean. The pictures
-/// are gone through some rows at a time.
+/// Compares `actual` with `expected`; `encoding` is that of 8-bit pictures. The pictures are read a band of rows at a
+/// time.
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -73,13 +85,13 @@ pub fn compare(
     expected: &dyn PictureRows,
     encoding: Encoding,
 ) -> Result<Comparison, SizeMismatch> {
-    let bands = BandPairs::of(actual, expected)?;
+    let bands = BandPairs::new(actual, expected)?;
     let mut seen = Sight::new(encoding);
     bands.each().for_each(|band| seen.take(&band));
     Ok(seen.comparison(bands.size))
 }
 
-/// What one look at all pixels tells.
+/// The sums of one pass over all pixels.
 struct Sight {
     encoding: Encoding,
     counted: usize,
@@ -92,7 +104,7 @@ struct Sight {
     steps: ChannelSums,
     /// The absolute linear errors, by channel.
     errors: [Vec<f64>; 3],
-    /// How many channels are N steps off.
+    /// The number of channels that are N steps off.
     by_step: [[u64; 256]; 3],
     anywhere: Difference,
 }
@@ -194,12 +206,12 @@ fn step_percentiles(counts: &[u64; 256]) -> [f64; 4] {
 }
 
 impl Comparison {
-    /// A linear error as a share of the expected picture's [`range`](Self::range); as it is where that is 0.
+    /// A linear error relative to the expected picture's [`range`](Self::range); unchanged where that is 0.
     pub fn relative(&self, linear: f64) -> f64 {
         if self.range > 0.0 { linear / self.range } else { linear }
     }
 
-    /// Whether no pixel of the whole picture, whatever covers it, differs by more than `steps` of 1/255, and all are
+    /// Whether no pixel of the whole picture, whatever its coverage, differs by more than `steps` of 1/255, and all are
     /// finite.
     pub fn is_within(&self, steps: u8) -> bool {
         self.anywhere.steps <= steps && self.not_finite.is_none()
@@ -211,19 +223,19 @@ pub(super) fn same_size(actual: &Image, expected: &Image) -> Result<(), SizeMism
     if actual == expected { Ok(()) } else { Err(SizeMismatch { actual, expected }) }
 }
 
-/// The brightest less the darkest finite channel; 0 where there is none.
+/// The brightest minus the darkest finite channel; 0 where there is none.
 pub(super) fn range(image: &Image) -> f64 {
     let finite = || image.pixels().iter().flatten().copied().filter(|channel| channel.is_finite());
     finite().reduce(f64::max).zip(finite().reduce(f64::min)).map_or(0.0, |(high, low)| high - low)
 }
 
-/// By channel the bytes at a pixel.
+/// The bytes of each channel at a pixel.
 pub(super) fn steps([a, b]: &[RgbImage; 2], (x, y): (u32, u32)) -> [[u8; 2]; 3] {
     let (a, b) = (a.get_pixel(x, y).0, b.get_pixel(x, y).0);
     [0, 1, 2].map(|k| [a[k], b[k]])
 }
 
-/// The largest channel's difference.
+/// The largest difference of a channel.
 pub(super) fn largest(steps: [[u8; 2]; 3]) -> u8 {
     steps.into_iter().map(|[a, b]| a.abs_diff(b)).max().unwrap_or(0)
 }

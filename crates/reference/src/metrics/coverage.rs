@@ -1,8 +1,8 @@
-//! Which pixels two pictures cover, and which of them count.
+//! The coverage of two pictures, and the pixels that are counted.
 
 use super::bands::Band;
 
-/// How many finite pixels show an object, and how many the background. Only where both pictures know.
+/// The numbers of finite pixels that show an object and the background, if the coverage of both pictures is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Coverage {
     /// Covered in both.
@@ -38,10 +38,10 @@ impl Coverage {
     }
 }
 
-/// What the comparison of a pixel is good for.
+/// The class of a pixel in a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Both pictures cover it, or it is not known: its error counts.
+    /// Both pictures cover it, or coverage is unknown: its error counts.
     Counted,
     /// Neither covers it.
     Background,
@@ -54,7 +54,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Whether the pictures agree on what the pixel shows, so that a difference picture shows its error.
+    /// Whether the pictures have the same coverage there, so that a difference picture shows its error.
     pub(super) fn is_on_scale(self) -> bool {
         matches!(self, Self::Counted | Self::Background)
     }

@@ -1,4 +1,4 @@
-//! Where two pictures differ, as a picture.
+//! Difference pictures.
 
 use halfway_lighting::Encoding;
 use image::RgbImage;
@@ -12,8 +12,20 @@ use super::ranks::percentile;
 use super::scale::{COVERAGE, LegendContent, NOT_FINITE, Scale, Unit, color, round_up};
 
 /// Draws the error of every pixel through the colour map "magma" (black is none, pale yellow the upper end), with a
-/// legend below. Where the pictures differ in coverage the pixel is green, where either is not finite light blue. Small
-/// pictures are enlarged, a whole number of times.
+/// legend below. Pixels with different coverage are green, pixels that are not finite light blue. Small pictures are
+/// enlarged by a whole number.
+///
+/// ```
+/// use halfway_lighting::Encoding;
+/// use halfway_reference::Image;
+/// use halfway_reference::metrics::{Scale, Unit, difference};
+///
+/// let [expected, actual] = [0.5, 0.52].map(|gray| Image::new(8, 8, vec![[gray; 3]; 64]));
+/// let scale = Scale { unit: Unit::Linear, upper: Some(0.05) };
+/// let picture = difference(&actual, &expected, Encoding::Srgb, scale)?;
+/// assert!(picture.width() >= 320);
+/// # Ok::<(), halfway_reference::metrics::SizeMismatch>(())
+/// ```
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -23,7 +35,7 @@ pub fn difference(
     encoding: Encoding,
     scale: Scale,
 ) -> Result<RgbImage, SizeMismatch> {
-    let bands = BandPairs::of(actual, expected)?;
+    let bands = BandPairs::new(actual, expected)?;
     let (mut kinds, mut errors) = (Vec::new(), Vec::new());
     for band in bands.each() {
         kinds.extend(pairs(&band).map(|pair| pair.kind));
@@ -50,7 +62,7 @@ pub fn difference(
     Ok(stacked(&picture, &legend))
 }
 
-/// Adds the error of every pixel of a band, row by row; of pixels that are not finite it means nothing.
+/// Appends the error of every pixel of a band, row by row; meaningless for pixels that are not finite.
 fn extend_errors(errors: &mut Vec<f64>, band: &Band, encoding: Encoding, unit: Unit) {
     match unit {
         Unit::Steps => {
@@ -65,13 +77,13 @@ fn extend_errors(errors: &mut Vec<f64>, band: &Band, encoding: Encoding, unit: U
     }
 }
 
-/// The first round number that 99.9 % of the pixels that are shown on the scale do not exceed.
+/// The first round number that 99.9 % of the displayed errors do not exceed.
 fn upper(errors: &[f64], kinds: &[Kind], unit: Unit) -> f64 {
     let on_scale = errors.iter().zip(kinds).filter(|(_, kind)| kind.is_on_scale());
     let mut errors: Vec<f64> = on_scale.map(|(error, _)| *error).collect();
     errors.sort_unstable_by(f64::total_cmp);
     let largest = errors.last().copied().unwrap_or(0.0);
-    // Where less than 0.1 % differ, a scale of the others would have no length.
+    // If less than 0.1 % differ, the scale would be empty: use the largest error.
     let most = [percentile(&errors, 99.9), largest].into_iter().find(|error| *error > 0.0);
     match (unit, most) {
         (_, None) => 1.0,

@@ -18,17 +18,17 @@ use super::comparison::same_size;
 use super::ranks::{PERCENTILES, nearest_rank};
 use crate::Image;
 
-/// Pixels per degree of the field of view: a display of 0.7 m width and 3840 pixels seen from 0.7 m, the value that the
-/// method's authors recommend. A lower number is a viewer farther off.
+/// Pixels per degree of the field of view: a display of 0.7 m width and 3840 pixels seen from 0.7 m, as the authors
+/// recommend. A lower number means a more distant viewer.
 pub const PIXELS_PER_DEGREE: f64 = 67.0;
 
 /// The perceived difference of two pictures, over all pixels: 0 is none, 1 the largest.
 ///
 /// Andersson et al., "ꟻLIP: A Difference Evaluator for Alternating Images", 2020, for pictures of low dynamic range:
-/// what counts is the bytes that a display shows.
+/// it compares the bytes that a display shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flip {
-    /// The mean, which is the figure to quote where one is wanted.
+    /// The mean: the figure to quote.
     pub mean: f64,
     /// The largest.
     pub max: f64,
@@ -38,14 +38,25 @@ pub struct Flip {
 
 /// Measures ꟻLIP at [`PIXELS_PER_DEGREE`]. Pixels that are not finite count as black.
 ///
+/// ```
+/// use halfway_lighting::Encoding;
+/// use halfway_reference::Image;
+/// use halfway_reference::metrics::flip;
+///
+/// let [gray, brighter, white] = [0.5, 0.51, 1.0].map(|gray| Image::new(16, 16, vec![[gray; 3]; 256]));
+/// assert_eq!(flip(&gray, &gray, Encoding::Srgb)?.mean, 0.0);
+/// assert!(flip(&gray, &brighter, Encoding::Srgb)?.mean < flip(&gray, &white, Encoding::Srgb)?.mean);
+/// # Ok::<(), halfway_reference::metrics::SizeMismatch>(())
+/// ```
+///
 /// # Errors
 /// [`SizeMismatch`].
 pub fn flip(actual: &dyn PictureRows, expected: &dyn PictureRows, encoding: Encoding) -> Result<Flip, SizeMismatch> {
     Ok(figures(map(actual, expected, encoding)?))
 }
 
-/// The same over the pixels that both pictures cover, where both know. The others are made equal first: an eye sees
-/// more than one pixel at once, and would see them, too.
+/// [`flip()`] over the pixels that both pictures cover, if the coverage of both is known. The others are made equal
+/// first, since the eye's blur would spread them.
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -60,7 +71,7 @@ pub fn flip_of_covered(actual: &Image, expected: &Image, encoding: Encoding) -> 
     Ok(figures(values.into_iter().zip(both).filter(|(_, both)| *both).map(|(value, _)| value).collect()))
 }
 
-/// All 0 of none.
+/// The figures of some values; all 0 if there are none.
 fn figures(mut values: Vec<f32>) -> Flip {
     values.sort_unstable_by(f32::total_cmp);
     let at = |share| values.get(nearest_rank(values.len() as u64, share) as usize).copied().map_or(0.0, f64::from);
@@ -68,11 +79,11 @@ fn figures(mut values: Vec<f32>) -> Flip {
     Flip { mean, max: values.last().copied().map_or(0.0, f64::from), percentiles: PERCENTILES.map(at) }
 }
 
-/// A value a pixel, row by row.
+/// The value of each pixel, row by row.
 fn map(actual: &dyn PictureRows, expected: &dyn PictureRows, encoding: Encoding) -> Result<Vec<f32>, SizeMismatch> {
     /// The filters keep about 200 bytes a pixel.
     const PIXELS: u32 = 1 << 20;
-    Ok(map_by(&BandPairs::of(actual, expected)?, encoding, PIXELS))
+    Ok(map_by(&BandPairs::new(actual, expected)?, encoding, PIXELS))
 }
 
 fn map_by(bands: &BandPairs, encoding: Encoding, pixels: u32) -> Vec<f32> {
@@ -81,7 +92,7 @@ fn map_by(bands: &BandPairs, encoding: Encoding, pixels: u32) -> Vec<f32> {
     let (width, height) = bands.size;
     let mut values = Vec::new();
     for rows in bands.ranges(pixels) {
-        // Rows above and below have part in the values, too.
+        // Rows above and below affect the values, too.
         let around = rows.start.saturating_sub(reach)..height.min(rows.end.saturating_add(reach));
         let band = bands.band(around.clone());
         let map = method.map([&band.expected, &band.actual].map(|image| image.to_bytes(encoding)));
@@ -91,10 +102,10 @@ fn map_by(bands: &BandPairs, encoding: Encoding, pixels: u32) -> Vec<f32> {
     values
 }
 
-/// The numbers of the method, by their names in the paper.
+/// The constants of the method, named as in the paper.
 #[derive(Clone, Copy, Debug)]
 struct Constants {
-    /// By opponent channel (luminance, red–green, blue–yellow) the pairs a, b of the contrast sensitivity: of the
+    /// For each opponent channel (luminance, red–green, blue–yellow) the pairs a, b of the contrast sensitivity: at the
     /// distance x in degrees it is Σ a·√(π/b)·exp(−π²·x²/b). A pair with a = 0 adds nothing.
     sensitivity: [[(f64, f64); 2]; 3],
     /// w: the width of features in degrees.
@@ -118,13 +129,13 @@ impl Constants {
     };
 }
 
-/// A filter along rows or columns, its middle weight that of the pixel itself.
+/// A filter along rows or columns, whose middle weight is that of the pixel itself.
 type Kernel = Vec<f64>;
 
 /// The method for a viewer at some distance.
 struct Method {
     constants: Constants,
-    /// By opponent channel Gaussians, which filter along both axes, and the weight of each.
+    /// For each opponent channel Gaussians, which filter along both axes, and the weight of each.
     sensitivity: [Vec<(f64, Kernel)>; 3],
     /// A Gaussian, and its first and second derivative.
     gaussian: Kernel,
@@ -136,7 +147,7 @@ struct Method {
 
 impl Method {
     fn new(constants: &Constants, pixels_per_degree: f64) -> Self {
-        // Where three standard deviations end. That of exp(−π²·x²/b) is √(b/2)/π.
+        // Three standard deviations. That of exp(−π²·x²/b) is √(b/2)/π.
         let radius = |deviation: f64| (3.0 * deviation * pixels_per_degree).ceil() as i32;
         let widest = constants.sensitivity.iter().flatten().filter(|(a, _)| *a > 0.0).map(|(_, b)| *b);
         let sensitivity_radius = radius((widest.fold(0.0, f64::max) / 2.0).sqrt() / PI);
@@ -172,13 +183,13 @@ impl Method {
         }
     }
 
-    /// How many pixels off another one has part in a pixel's value at most.
+    /// The distance in pixels up to which pixels affect each other's value.
     fn reach(&self) -> u32 {
         let all = self.sensitivity.iter().flatten().map(|(_, kernel)| kernel).chain([&self.gaussian]);
         all.map(|kernel| kernel.len() as u32 / 2).max().unwrap_or(0)
     }
 
-    /// A value a pixel of the expected and the actual picture, which are of one size.
+    /// The value of each pixel of the expected and the actual picture, which have one size.
     fn map(&self, pictures: [RgbImage; 2]) -> Vec<f64> {
         let space = ColorSpace::new();
         let [expected, actual] = pictures.map(|picture| self.seen(&space, &picture));
@@ -198,7 +209,7 @@ impl Method {
         color.pow(1.0 - feature)
     }
 
-    /// What the eye makes of each pixel.
+    /// The perceived color and features of each pixel.
     fn seen(&self, space: &ColorSpace, picture: &RgbImage) -> Vec<Seen> {
         let linear: [f64; 256] = std::array::from_fn(|byte| Encoding::Srgb.decode(byte as f64 / 255.0));
         let width = picture.width() as usize;
@@ -217,7 +228,7 @@ impl Method {
         let (edges, points) = (magnitude(&self.edge), magnitude(&self.point));
         let seen = |i: usize| {
             let opponent = DVec3::from_array(std::array::from_fn(|k| blurred[k].values[i]));
-            // A blur may lead to colours that no display shows.
+            // The blur may produce colours that no display shows.
             let rgb = space.rgb_from_opponent(opponent).clamp(DVec3::ZERO, DVec3::ONE);
             Seen { color: space.hunt_adjusted_lab(rgb), edge: edges[i], point: points[i] }
         };
@@ -225,12 +236,12 @@ impl Method {
     }
 }
 
-/// A pixel as an eye sees it.
+/// A pixel as the eye perceives it.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
     /// Blurred, in L*a*b* adjusted by Hunt.
     color: DVec3,
-    /// How much of an edge it is, and of a point.
+    /// The strength of an edge, and of a point, there.
     edge: f64,
     point: f64,
 }
@@ -242,7 +253,7 @@ struct Plane {
 }
 
 impl Plane {
-    /// Filtered by one kernel along rows and another along columns. Outside of the picture its border is repeated.
+    /// Filtered by one kernel along rows and another along columns. Beyond the picture its border is repeated.
     fn filtered(&self, [along_rows, along_columns]: [&Kernel; 2]) -> Self {
         let width = self.width;
         if width == 0 {
@@ -268,7 +279,7 @@ impl Plane {
         Self { width, values }
     }
 
-    /// The sum of what the kernels make of it, each along both axes and with its weight.
+    /// The weighted sum of the results of the kernels, each applied along both axes.
     fn filtered_by_sum(&self, kernels: &[(f64, Kernel)]) -> Self {
         let mut sum = Self { width: self.width, values: vec![0.0; self.values.len()] };
         for (weight, kernel) in kernels {
@@ -286,7 +297,7 @@ fn kernel(radius: i32, weight: impl Fn(i32) -> f64) -> Kernel {
     (-radius..=radius).map(weight).collect()
 }
 
-/// The kernel with its positive weights brought to the sum 1, and its negative ones to −1.
+/// The kernel scaled so that its positive weights add up to 1, and its negative ones to −1.
 fn normalized(mut kernel: Kernel) -> Kernel {
     let sum = |sign: f64| kernel.iter().map(|weight| (sign * weight).max(0.0)).sum::<f64>();
     let (positive, negative) = (sum(1.0), sum(-1.0));
@@ -307,7 +318,7 @@ fn hyab(a: DVec3, b: DVec3) -> f64 {
     difference.x.abs() + difference.y.hypotenuse(difference.z)
 }
 
-/// Linear sRGB and its relations to X, Y and Z, each as a share of what white has of it.
+/// Linear sRGB and its relations to X, Y and Z, each relative to white.
 struct ColorSpace {
     xyz_from_rgb: DMat3,
     rgb_from_xyz: DMat3,
@@ -322,7 +333,7 @@ impl ColorSpace {
         let white = xyz(WHITE);
         let [red, green, blue] = PRIMARIES.map(xyz);
         let primaries = DMat3::from_cols(red, green, blue);
-        // Such amounts of the primaries are white.
+        // These amounts of the primaries make white.
         let amounts = primaries.inverse() * white;
         let xyz_from_rgb = DMat3::from_diagonal(white.recip()) * primaries * DMat3::from_diagonal(amounts);
         Self { xyz_from_rgb, rgb_from_xyz: xyz_from_rgb.inverse() }

@@ -1,8 +1,8 @@
-//! A drawn picture against the oracle's.
+//! Judges a rendered picture by the oracle.
 //!
-//! Two drawers that are both right differ on the edges of objects, faces and spot cones: a rasteriser snaps vertices to
-//! a grid, so that either side may win a pixel whose centre lies beside an edge. Of a pixel that is over the bar the
-//! oracle says which colours it may show, and it is right if it shows one of them.
+//! Two renderers that are both right differ on the edges of objects, faces and spot cones: a rasteriser snaps vertices
+//! to a grid, so that either side may win a pixel whose centre lies beside an edge. For each pixel over the bar, the
+//! oracle lists the colours that it may show, and the pixel is right if it shows one of them.
 
 mod divisor;
 
@@ -24,38 +24,47 @@ use divisor::judge_divided;
 /// Within this many pixels of an edge a pixel may belong to either side: vertices are snapped to a grid of this width
 /// or a finer one (four bits, the least that Vulkan grants; eight are usual).
 const EDGE_RADIUS: f64 = 1.0 / 16.0;
-/// Where a triangle's own colour changes by more than this share of the range within the disc of [`EDGE_RADIUS`], any of
-/// the colours there is right; on a gentler slope only the one at the centre. A grid of 1/256 of a pixel changes that by
-/// less than 1/16 of this share, which the bars cover.
+/// If a triangle's own colour changes by more than this fraction of the range within the disc of [`EDGE_RADIUS`], any
+/// of the colours there is right; on a gentler slope only the one at the centre. A grid of 1/256 of a pixel changes
+/// that by less than 1/16 of this fraction, which the bars cover.
 const STEEP: f64 = 0.04;
 
-/// The same where corners are on the drawer's own grid: all that is left to move an edge is single precision.
+/// The radius if corners are on the renderer's own grid: only single precision can still move an edge.
 const RADIUS_ON_GRID: f64 = 1.0 / 64.0;
 
-/// What a picture has to keep to.
+/// The tolerances of a picture.
+///
+/// ```
+/// use halfway_lighting::Encoding;
+/// use halfway_reference::metrics::Bars;
+///
+/// // A picture of bytes that may be off by two more steps, as after an approximation.
+/// let bars = Bars::bytes(Encoding::Srgb).within(2.0);
+/// assert_eq!((bars.worst, bars.steps), (1.0, 2.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bars {
-    /// What errors are counted in.
+    /// The unit of the errors.
     pub measure: Measure,
-    /// What 99.9 % of the channels' errors may reach.
+    /// The bar for 99.9 % of the channels' errors.
     pub most: f64,
-    /// What any error may reach.
+    /// The bar for every error.
     pub worst: f64,
-    /// The share of pixels that have to show no error at all.
+    /// The least fraction of pixels without any error.
     pub equal: f64,
-    /// What each blended layer that a pixel is seen through may add to `worst`.
+    /// The addition to `worst` for each blended layer in front of a pixel.
     pub layer: f64,
-    /// What was allowed to be left out, in steps of 1/255 of the picture: `most` and `worst` are on top of it.
+    /// The error that an approximation was allowed, in steps of 1/255 of the picture: added to `most` and `worst`.
     pub steps: f64,
-    /// The oracle is asked no more once a pixel is over `worst`: the [`Verdict`] is [`is_within`](Verdict::is_within)
-    /// or not as it would be, much sooner where all is wrong; its figures are then of some pixels.
+    /// Whether to stop once a pixel is over `worst`. [`is_within`](Verdict::is_within) is the same as without, much
+    /// sooner if all is wrong; the other figures then cover only some pixels.
     pub until_wrong: bool,
 }
 
-/// What errors are counted in.
+/// The unit of errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Shares of the brightest less the darkest expected channel, linear.
+    /// Fractions of the brightest minus the darkest expected channel, linear.
     Range,
     /// Steps of 1/255, both pictures clamped, encoded and rounded to bytes.
     Steps(Encoding),
@@ -84,9 +93,9 @@ impl Bars {
         Self { measure: Measure::Steps(encoding), most: 1.0, worst: 1.0, equal: 0.99, layer: 0.5, ..Self::FLOAT }
     }
 
-    /// For a decoded picture of whatever drawer: [`FLOAT`](Self::FLOAT) in floating point, else
-    /// [`bytes`](Self::bytes) without a share that has to be equal, as it is not known who wrote the curve. One of 16
-    /// bits was rounded once, whatever the layers.
+    /// For a decoded picture of any renderer: [`FLOAT`](Self::FLOAT) in floating point, else
+    /// [`bytes`](Self::bytes) without a fraction that must be equal, as the exact curve is unknown. One of 16 bits was
+    /// rounded once, whatever the layers.
     pub fn for_decoded(picture: &DynamicImage, encoding: Encoding) -> Self {
         match picture {
             DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => Self::FLOAT,
@@ -98,13 +107,13 @@ impl Bars {
         }
     }
 
-    /// For a picture that may be off by N steps besides; how many pixels are equal then says nothing.
+    /// For a picture that may be off by N more steps; the fraction of equal pixels is then not checked.
     #[must_use]
     pub fn within(self, steps: f64) -> Self {
         if steps > 0.0 { Self { steps, equal: 0.0, ..self } } else { self }
     }
 
-    /// For a picture of which only is asked whether it is wrong; see [`until_wrong`](Self::until_wrong).
+    /// Stops at the first wrong pixel; see [`until_wrong`](Self::until_wrong).
     #[must_use]
     pub const fn until_wrong(self) -> Self {
         Self { until_wrong: true, ..self }
@@ -117,14 +126,14 @@ impl Bars {
     }
 }
 
-/// How a drawn picture did. Displayed it is one line.
+/// The result of judging a picture. `Display` writes one line.
 ///
-/// Figures are over the pixels that show an object, less those that show the other side of an edge or the roundings of
-/// blended layers; background that is right is left out, as it would flatter them. Where the expected picture does not
-/// know what it covers, all pixels count as showing an object.
+/// Figures are over the pixels that show an object, except those that show the other side of an edge or the roundings
+/// of blended layers; right background is left out, as it would improve the figures. If the coverage of the expected
+/// picture is unknown, all pixels count as showing an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
-    /// What it was judged by; errors are in its measure.
+    /// The bars; errors are in their measure.
     pub bars: Bars,
     /// [`Bars::steps`] in that measure.
     pub allowed: f64,
@@ -135,43 +144,43 @@ pub struct Verdict {
     /// The place of the largest error and the values there: linear for [`Measure::Range`], bytes for
     /// [`Measure::Steps`].
     pub at: Option<Worst>,
-    /// The share of pixels without any error.
+    /// The fraction of pixels without any error.
     pub equal: f64,
-    /// The share of the picture's pixels that show the other side of an edge than the oracle does at their centres, and
-    /// may. Each has been judged: the figure excuses nothing.
+    /// The fraction of the picture's pixels that rightly show the other side of an edge than the oracle does at their
+    /// centres. Each has been judged: the figure excuses nothing.
     pub edges: f64,
-    /// The share of the picture's pixels that are over the bar by no more than the roundings of the blended layers
+    /// The fraction of the picture's pixels that are over the bar by no more than the roundings of the blended layers
     /// there explain.
     pub layered: f64,
-    /// The share of the picture's pixels that count.
+    /// The fraction of the picture's pixels that count.
     pub counted: f64,
-    /// Pixels of the drawn picture with a NaN, an infinity or a negative channel; they are in no other figure.
+    /// Pixels of the actual picture with a NaN, an infinity or a negative channel; they are in no other figure.
     pub bad: usize,
     /// Column and row of the first bad one, row by row, and its channels.
     pub first_bad: Option<((u32, u32), [f64; 3])>,
 }
 
 impl Verdict {
-    /// Whether the picture keeps to its bars and has no bad pixel.
+    /// Whether the picture is within its bars and has no bad pixel.
     pub fn is_within(&self) -> bool {
         let Self { bars, allowed, most, worst, equal, .. } = *self;
         most <= bars.most + allowed && worst <= bars.worst + allowed && equal >= bars.equal && self.bad == 0
     }
 }
 
-/// Judges `actual` by `expected`, which `oracle` has drawn with one sample a pixel; `actual` has as many as the camera
-/// says.
+/// Judges `actual` by `expected`, which `oracle` has drawn with one sample a pixel; `actual` has the camera's number of
+/// samples.
 ///
-/// Of a pixel whose error is over `bars.most` the oracle is asked which colours it [may show](Oracle::possible) with
-/// vertices moved by less than 1/16 of a pixel; with four samples a pixel, also of one beside which something else is
-/// seen. On an edge (several triangles, or a jump in the colour of one) and on a slope of more than 4 % of the range
-/// within that radius, each of these colours and that at the middle, give or take `bars.worst`, is right, and the pixel
-/// is counted apart; the error of another one is its distance from the nearest of them. Where blended layers are seen,
-/// `bars.worst` is larger by `bars.layer` for each. No share of pixels is excused.
+/// For each pixel whose error is over `bars.most` the oracle lists the colours that it [may show](Oracle::possible)
+/// with vertices moved by less than 1/16 of a pixel; with four samples a pixel, also for one beside which something
+/// else is visible. On an edge (several triangles, or a jump in the colour of one) and on a slope of more than 4 % of
+/// the range within that radius, each of these colours and that at the middle, give or take `bars.worst`, is right, and
+/// the pixel is counted separately; the error of a wrong one is its distance from the nearest of them. Behind blended
+/// layers, `bars.worst` is larger by `bars.layer` for each. No fraction of pixels is excused.
 ///
-/// Where the expected picture has been [divided](Image::divided), the brightest pixel may be one of those. The one
-/// number that `actual` was divided by is found, and has to be the largest channel of a picture that may be shown; by
-/// that number the expected picture is divided instead.
+/// If the expected picture has been [divided](Image::divided), the brightest pixel may be one of those. The one number
+/// that `actual` was divided by is estimated, and must be the largest channel of a picture that may be shown; the
+/// expected picture is divided by that number instead.
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -179,12 +188,12 @@ pub fn judge(oracle: &Oracle, expected: &Image, actual: &Image, bars: Bars) -> R
     judge_within(EDGE_RADIUS, oracle, expected, actual, bars)
 }
 
-/// [`judge`] for a drawer that rounds the corners of triangles to a grid of N bits within a pixel. Some drawers
-/// interpolate between the rounded corners and others between the exact ones, so the picture is right if it is so as a
-/// whole by either: by `oracle`, which has drawn `expected`, or by the same [on the grid](Oracle::on_grid) with vertices
-/// moved by less than 1/64 of a pixel. Where a corner lies so near the middle between two places that single precision
-/// may take it to either, the triangles on it may be moved by a step of the grid. Edges of triangles that reach beyond
-/// the picture may be moved so, too: where a drawer cuts them at its sides, it rounds the corners that this makes.
+/// [`judge`] for a renderer that rounds the corners of triangles to a grid of N bits within a pixel. Some renderers
+/// interpolate between the rounded corners and others between the exact ones, so the picture is right if it is right as
+/// a whole by either: by `oracle`, which has drawn `expected`, or by the oracle [on the grid](Oracle::on_grid) with
+/// vertices moved by less than 1/64 of a pixel. Where a corner lies so near the middle between two grid points that
+/// single precision may take it to either, the triangles on it may be moved by a step of the grid. So may edges of
+/// triangles that reach beyond the picture: a renderer that clips them at its sides rounds the new corners.
 ///
 /// # Errors
 /// [`SizeMismatch`].
@@ -201,7 +210,7 @@ pub fn judge_on_grid(
     }
     let rounded = oracle.clone().on_grid(bits);
     let verdict = judge_within(RADIUS_ON_GRID, &rounded, &rounded.draw(), actual, bars.until_wrong())?;
-    // Of a picture that is right all pixels have been judged.
+    // If the picture is right, all pixels have been judged.
     Ok(if verdict.is_within() { Verdict { bars, ..verdict } } else { exact })
 }
 
@@ -234,7 +243,7 @@ fn judge_with(
             return PixelFinding::Bad(at, is);
         }
         let errors: [f64; 3] = std::array::from_fn(|k| ruler.error(is[k], should[k]));
-        // An error that is no number is over the bar too.
+        // NaN errors are over the bar too.
         let is_over = errors.iter().any(|error| error.is_nan() || *error > bars.most + ruler.allowed);
         let counted = |should, errors| {
             PixelFinding::Counted(
@@ -243,7 +252,7 @@ fn judge_with(
                 errors,
             )
         };
-        // Of four samples the centre says nothing where something else is beside it.
+        // With four samples the centre proves nothing if something else is beside it.
         if is_over || (samples == Samples::Four && ruler.differs_beside(expected, at)) {
             if bars.until_wrong && is_wrong.load(Ordering::Relaxed) {
                 return PixelFinding::Unasked;
@@ -252,8 +261,8 @@ fn judge_with(
             let has_choice = ruler.has_choice(&possible);
             let (nearest, errors) = if has_choice {
                 let of_choice = ruler.nearest(is, &possible);
-                // What one sample shows at the middle itself is right, also where it is too small to be found around
-                // it.
+                // The colour of one sample at the middle itself is right, also where its surface is too small to be
+                // found around it.
                 let is_nearer = samples == Samples::One && largest(&errors) < largest(&of_choice.1);
                 if is_nearer { (should, errors) } else { of_choice }
             } else {
@@ -288,9 +297,9 @@ fn largest(errors: &[f64; 3]) -> f64 {
     errors.iter().copied().fold(0.0, f64::max)
 }
 
-/// How a pixel did.
+/// The finding for a pixel.
 enum PixelFinding {
-    /// It holds no number, or one below 0.
+    /// A channel is NaN, infinite or below 0.
     Bad((u32, u32), [f64; 3]),
     /// It is over the bar, and shows another side of an edge.
     Edge,
@@ -298,13 +307,13 @@ enum PixelFinding {
     Layered,
     /// It shows no object, and is right.
     Background,
-    /// It is over the bar, and another is wrong whatever it may show.
+    /// It is over the bar, and another pixel is already wrong.
     Unasked,
-    /// Its place, what it shows and should show, and the errors.
+    /// Its position, its actual and expected colour, and the errors.
     Counted((u32, u32), [[f64; 3]; 2], [f64; 3]),
 }
 
-/// From intensities to the unit of the bars.
+/// Converts intensities to the unit of the bars.
 struct Ruler {
     bars: Bars,
     /// The expected range, linear or in steps.
@@ -319,7 +328,7 @@ impl Ruler {
     fn new(expected: &Image, bars: Bars) -> Self {
         let brightest = expected.pixels().iter().flatten().copied().filter(|i| i.is_finite()).fold(0.0, f64::max);
         let range = match bars.measure {
-            // A picture of one colour has no range of its own: its brightness, or 1 where it is black.
+            // A picture of one colour has no range: its brightness, or 1 if it is black.
             Measure::Range => [range(expected), brightest, 1.0].into_iter().find(|range| *range > 1e-12).unwrap_or(1.0),
             Measure::Steps(_) => 255.0,
         };
@@ -354,8 +363,8 @@ impl Ruler {
         self.in_unit((self.value(actual) - self.value(expected)).abs())
     }
 
-    /// The bar for the worst pixel where such layers are seen. Where four samples lie under layers, their mean is
-    /// rounded once more.
+    /// The bar for the worst pixel behind such layers. If four samples lie under layers, their mean is rounded once
+    /// more.
     fn bar_through(&self, possible: &Possible, samples: Samples) -> f64 {
         let roundings = possible.layers + usize::from(samples == Samples::Four && possible.layers > 0);
         self.bars.worst + self.allowed + self.bars.layer * roundings as f64
@@ -367,7 +376,7 @@ impl Ruler {
         possible.is_edge || possible.ranges.iter().any(|range| (0..3).any(|k| span(range, k) > STEEP * self.range))
     }
 
-    /// The colour that a pixel may show and that is nearest to what it shows, and the errors of the channels.
+    /// The possible colour nearest to the actual one, and the errors of the channels.
     fn nearest(&self, actual: [f64; 3], possible: &Possible) -> ([f64; 3], [f64; 3]) {
         let of_ranges = possible.ranges.iter().map(|range| {
             let inside = std::array::from_fn(|k| actual[k].max(range.low[k]).min(range.high[k]));
@@ -380,13 +389,13 @@ impl Ruler {
     /// How far each channel lies outside a range.
     fn errors_outside(&self, actual: [f64; 3], range: &ColorRange) -> [f64; 3] {
         let [low, high] = [range.low, range.high].map(|color| color.map(|channel| self.value(channel)));
-        // An edge may show what is brighter than the whole of the picture, rounded to its own brightness.
+        // An edge may show something brighter than all of the picture, rounded to its own brightness.
         let brightest = high.into_iter().fold(0.0, f64::max) - self.darkest;
         let share = self.range / self.range.max(brightest);
         std::array::from_fn(|k| {
             let value = self.value(actual[k]);
             let outside = [low[k] - value, value - high[k]].map(|outside| share * self.in_unit(outside));
-            // What is no number is no color.
+            // NaN is not a color.
             if outside.iter().any(|outside| outside.is_nan()) {
                 f64::INFINITY
             } else {
@@ -395,7 +404,7 @@ impl Ruler {
         })
     }
 
-    /// Whether a pixel next to one, at a corner too, shows something else.
+    /// Whether a neighbouring pixel, corners included, shows something else.
     fn differs_beside(&self, expected: &Image, (x, y): (u32, u32)) -> bool {
         let (width, height) = expected.dimensions();
         let here = expected.pixel(x, y);
@@ -407,7 +416,7 @@ impl Ruler {
     }
 }
 
-/// Counts while the pixels go by.
+/// Accumulates the findings.
 #[derive(Default)]
 struct Tally {
     errors: Vec<f64>,
@@ -439,7 +448,7 @@ impl Tally {
         self.pixels += 1;
         self.equal += usize::from(errors.iter().all(|error| *error == 0.0));
         for (channel, error) in errors.into_iter().enumerate() {
-            // NaN, which is the oracle's, is the worst.
+            // NaN, which comes from the oracle, is the worst.
             let error = if error.is_nan() { f64::INFINITY } else { error };
             self.errors.push(error);
             if error > self.worst {

@@ -1,14 +1,14 @@
-//! The strip below a difference picture that says what its colours mean.
+//! The legend below a difference picture.
 
 use image::{Rgb, RgbImage};
 
 use super::canvas::{INK, PAPER, fill, text_height, text_scale, text_width, write};
 use super::scale::{COVERAGE, LegendContent, NOT_FINITE, Unit, color, power_of_ten};
 
-/// No narrower, so that the words have room.
+/// The least width, which fits the words.
 const LEAST_WIDTH: u32 = 320;
 
-/// The name of what is shown, a colour bar with ticks in its unit, and the colours beside the scale that occur.
+/// The unit, a colour bar with ticks, and the colours beside the scale that occur.
 pub(super) fn legend(width: u32, shown: LegendContent) -> RgbImage {
     let width = width.max(LEAST_WIDTH);
     let scale = text_scale(width);
@@ -44,14 +44,14 @@ pub(super) fn legend(width: u32, shown: LegendContent) -> RgbImage {
     strip
 }
 
-/// Marks and numbers along the bar, whose lower left corner is at (x, y).
+/// Ticks and numbers along the bar, whose lower left corner is at (x, y).
 fn ticks(strip: &mut RgbImage, (left, y): (u32, u32), length: u32, scale: u32, shown: LegendContent) {
     let parts = parts(shown);
     for i in 0..=parts {
         let share = f64::from(i) / f64::from(parts);
         let x = left + (share * f64::from(length - 1)).round() as u32;
         fill(strip, (x, y), (1, 2 * scale), INK);
-        // What lies beyond the end of the scale has the colour of its end.
+        // Errors beyond the end of the scale have the colour of its end.
         let more = if i == parts && shown.beyond { "+" } else { "" };
         let label = format!("{}{more}", number(shown.upper * share));
         let wide = text_width(&label, scale);
@@ -61,7 +61,7 @@ fn ticks(strip: &mut RgbImage, (left, y): (u32, u32), length: u32, scale: u32, s
     }
 }
 
-/// How many parts have round ends.
+/// The number of parts with round ends.
 fn parts(shown: LegendContent) -> u32 {
     let leading = shown.upper / power_of_ten(shown.upper);
     match shown.unit {

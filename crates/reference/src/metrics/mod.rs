@@ -1,9 +1,9 @@
-//! How far one picture is from another.
+//! Metrics of the difference between two pictures.
 //!
 //! [`compare`] measures two pictures pixel by pixel, in linear intensity and in the 256 steps of an 8-bit picture;
-//! [`flip()`] measures what a viewer would notice. [`judge`] measures a drawn picture against the oracle, apart from
-//! the pixels where edges leave the drawer a choice. [`difference`] shows where two pictures differ, and
-//! [`report_failure`] leaves what a failing test has to show.
+//! [`flip()`] measures the difference that a viewer would notice. [`judge`] measures a rendered picture against the
+//! oracle, separating the pixels where edges leave the renderer a choice. [`difference`] draws the errors, and
+//! [`report_failure`] writes the pictures of a failing test.
 //!
 //! ```
 //! use halfway_lighting::Encoding;

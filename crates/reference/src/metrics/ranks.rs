@@ -1,11 +1,11 @@
-//! The values at some ranks among many.
+//! Percentiles.
 
-/// The shares of [`Statistics::percentiles`](super::Statistics::percentiles), in per cent.
+/// The percentages of [`Statistics::percentiles`](super::Statistics::percentiles).
 pub const PERCENTILES: [f64; 4] = [50.0, 95.0, 99.0, 99.9];
 
 /// The rank, from 0, of the least of N sorted values that `share` per cent of them do not exceed.
 pub(super) fn nearest_rank(values: u64, share: f64) -> u64 {
-    // The product may end a little above a whole number that it stands for.
+    // Rounding may leave the product a little above a whole number.
     (values as f64 * share / 100.0 - 1e-6).ceil().max(1.0) as u64 - 1
 }
 
@@ -14,7 +14,7 @@ pub(super) fn percentile(sorted: &[f64], share: f64) -> f64 {
     sorted.get(nearest_rank(sorted.len() as u64, share) as usize).copied().unwrap_or(0.0)
 }
 
-/// The [`percentile`] of the values, 0 and above, of several sorted lists as of one.
+/// The [`percentile`] of the values, 0 and above, of several sorted lists together.
 pub(super) fn percentile_of_all(sorted: &[Vec<f64>], share: f64) -> f64 {
     let values: usize = sorted.iter().map(Vec::len).sum();
     let rank = nearest_rank(values as u64, share) as usize;

@@ -1,4 +1,4 @@
-//! What a failing image test leaves behind.
+//! The report of a failing image test.
 
 use std::fs;
 use std::path::Path;
@@ -10,11 +10,27 @@ use super::difference::difference;
 use super::scale::Scale;
 use crate::Image;
 
-/// Leaves `NAME.actual.png`, `NAME.expected.png` and `NAME.difference.png` in `folder`, and says in one line where and
-/// how far off, and where the pictures are.
+/// Writes `NAME.actual.png`, `NAME.expected.png` and `NAME.difference.png` into `folder`, and returns one line with the
+/// largest error, its pixel, and the files.
 ///
-/// Characters of `name` other than letters, digits, `-`, `_` and `.` become `_` in the files' names. A picture that
-/// cannot be written is said to be so in the line; the failure that it was to show stands.
+/// Characters of `name` other than letters, digits, `-`, `_` and `.` become `_` in the files' names. If a picture
+/// cannot be written, the line says so besides the failure.
+///
+/// ```
+/// use halfway_lighting::Encoding;
+/// use halfway_reference::Image;
+/// use halfway_reference::metrics::{compare, report_failure};
+///
+/// let [expected, actual] = [0.5, 0.25].map(|gray| Image::new(1, 1, vec![[gray; 3]]));
+/// let comparison = compare(&actual, &expected, Encoding::Srgb)?;
+/// # let folder = std::env::temp_dir().join(format!("halfway_report_{}", std::process::id()));
+/// if !comparison.is_within(1) {
+///     let line = report_failure(&folder, "flat/point", &actual, &expected, &comparison);
+///     assert!(line.starts_with("flat/point: up to 51 steps"), "{line}");
+/// }
+/// # std::fs::remove_dir_all(folder).unwrap();
+/// # Ok::<(), halfway_reference::metrics::SizeMismatch>(())
+/// ```
 #[must_use]
 pub fn report_failure(folder: &Path, name: &str, actual: &Image, expected: &Image, comparison: &Comparison) -> String {
     let stem: String = name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();

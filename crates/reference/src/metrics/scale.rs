@@ -1,19 +1,19 @@
-//! What the colours of a difference picture mean.
+//! The colour scale of difference pictures.
 
 use colorous::MAGMA;
 use image::Rgb;
 
-/// What a difference picture shows, and where its colours end.
+/// The unit of a difference picture, and the upper end of its colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scale {
-    /// What is shown. Default [`Unit::Steps`].
+    /// The unit of the errors. Default [`Unit::Steps`].
     pub unit: Unit,
-    /// The error of the brightest colour, in the unit; what is larger has the same colour. `None`, the default, takes
+    /// The error of the brightest colour, in the unit; larger errors have the same colour. `None`, the default, takes
     /// the first of 1, 2, 5, 10, 20 … (in linear intensity also 0.5, 0.2 …) that 99.9 % of the pixels do not exceed.
     pub upper: Option<f64>,
 }
 
-/// What the error of a pixel is: the largest of its three channels' errors.
+/// The unit of a pixel's error, which is the largest of its three channels' errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Unit {
     /// In steps of 1/255, after both pictures are clamped, encoded and rounded to bytes.
@@ -23,12 +23,12 @@ pub enum Unit {
     Linear,
 }
 
-/// Where exactly one of the pictures covers the pixel. Neither colour is near one of the scale's.
+/// Pixels that exactly one of the pictures covers. Neither this colour nor the next is near one of the scale's.
 pub(super) const COVERAGE: Rgb<u8> = Rgb([0, 220, 90]);
-/// Where a picture holds no number.
+/// Pixels that are not finite.
 pub(super) const NOT_FINITE: Rgb<u8> = Rgb([0, 200, 255]);
 
-/// What the legend has to explain.
+/// The contents of the legend.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LegendContent {
     pub(super) unit: Unit,
@@ -39,7 +39,7 @@ pub(super) struct LegendContent {
     pub(super) not_finite: bool,
 }
 
-/// The colour of a share of the scale; the end's beyond it.
+/// The colour of a fraction of the scale; clamped beyond its end.
 pub(super) fn color(share: f64) -> Rgb<u8> {
     let colorous::Color { r, g, b } = MAGMA.eval_continuous(share);
     Rgb([r, g, b])
@@ -47,7 +47,7 @@ pub(super) fn color(share: f64) -> Rgb<u8> {
 
 /// The first of 1, 2 and 5 times a power of ten that is not below a number above 0.
 pub(super) fn round_up(number: f64) -> f64 {
-    // A rounded product may lie a hair below the number.
+    // Rounding may leave a product a hair below the number.
     let reaches = |candidate: &f64| *candidate >= number * (1.0 - 1e-12);
     let power = power_of_ten(number);
     [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power).into_iter().find(reaches).unwrap_or(number)

@@ -1,4 +1,4 @@
-//! Figures over many errors.
+//! Statistics of many errors.
 
 use std::fmt;
 
@@ -14,7 +14,7 @@ pub struct Errors {
     pub all: Statistics,
 }
 
-/// Errors, actual less expected, in figures. All are 0 where nothing is counted.
+/// Statistics of errors, actual minus expected. All are 0 where nothing is counted.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Statistics {
     /// The largest error to either side; the first of equal ones, row by row. `None` where nothing is counted.
@@ -36,9 +36,9 @@ pub struct Worst {
     pub at: (u32, u32),
     /// 0 red, 1 green, 2 blue.
     pub channel: usize,
-    /// What is there.
+    /// The actual value.
     pub actual: f64,
-    /// What should be there.
+    /// The expected value.
     pub expected: f64,
 }
 
@@ -49,7 +49,7 @@ impl Worst {
     }
 }
 
-/// The place and both values.
+/// The pixel and both values.
 impl fmt::Display for Worst {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Worst { at, channel, actual, expected } = *self;
@@ -66,7 +66,7 @@ impl Statistics {
     }
 }
 
-/// Errors in all figures but the percentiles, as they come in.
+/// Sums for all statistics but the percentiles.
 #[derive(Clone, Copy, Debug, Default)]
 struct ErrorSums {
     count: u64,
@@ -77,7 +77,7 @@ struct ErrorSums {
 }
 
 impl ErrorSums {
-    /// Takes the values at a place.
+    /// Adds the values at a pixel.
     fn push(&mut self, here: Worst) {
         let error = here.actual - here.expected;
         self.count += 1;
@@ -106,13 +106,13 @@ impl ErrorSums {
 pub(super) struct ChannelSums([ErrorSums; 4]);
 
 impl ChannelSums {
-    /// Takes the values of one channel at a place.
+    /// Adds the values of one channel at a pixel.
     pub(super) fn push(&mut self, here: Worst) {
         self.0[here.channel].push(here);
         self.0[3].push(here);
     }
 
-    /// The figures, with the percentiles of each channel and of all.
+    /// The statistics, with the percentiles of each channel and of all.
     pub(super) fn errors(&self, percentiles: [[f64; 4]; 4]) -> Errors {
         let statistics = |k: usize| self.0[k].statistics(percentiles[k]);
         Errors { channels: [0, 1, 2].map(statistics), all: statistics(3) }

@@ -1,4 +1,4 @@
-//! A comparison in words.
+//! Comparisons as text.
 
 use std::fmt;
 
@@ -21,7 +21,7 @@ impl Comparison {
     }
 }
 
-/// Where and how far off, in one line.
+/// The largest error and its pixel, in one line.
 impl fmt::Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (steps, linear) = (&self.steps.all, &self.linear.all);

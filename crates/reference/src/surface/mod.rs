@@ -1,4 +1,4 @@
-//! Where rays meet the surfaces that are known by formula.
+//! Intersections of rays with surfaces that are known by formula.
 //!
 //! A [`Surface`] is traced piece by piece, so that a picture can be made from the pieces whose [`hull`](Traced::hull)
 //! comes near a pixel. Everything is in the space of the mesh, in f64.
@@ -20,7 +20,7 @@ use ray::{Ray, extent};
 
 pub(crate) use ray::SurfaceHit;
 
-/// A surface made ready for rays: its patches are cut into small ones.
+/// A surface prepared for rays: its patches are cut into small ones.
 #[derive(Clone, Debug)]
 pub(crate) struct Traced {
     /// The quadrics and the discs.
@@ -30,15 +30,15 @@ pub(crate) struct Traced {
     extent: f64,
 }
 
-/// A piece that is met in closed form.
+/// A piece that is intersected in closed form.
 #[derive(Clone, Debug)]
 struct Plain {
     piece: SurfacePiece,
     hull: Vec<DVec3>,
 }
 
-/// Two hits that are nearer to each other than this share of the surface's extent, and face the same way, are one hit
-/// on the common edge of two pieces: far above the rounding of f64, far below a pixel.
+/// Two hits that are nearer to each other than this fraction of the surface's extent, and face the same way, are one
+/// hit on the common edge of two pieces: far above the rounding of f64, far below a pixel.
 const SAME_PLACE: f64 = 1e-9;
 
 impl Traced {
@@ -67,11 +67,11 @@ impl Traced {
         }
     }
 
-    /// Adds every place at t > 0 where the ray origin + t·direction meets the piece, in any order. The direction is not
-    /// 0; its length is of no consequence.
+    /// Adds every hit at t > 0 of the ray origin + t·direction with the piece, in any order. The direction is not 0;
+    /// its length does not matter.
     ///
-    /// No ray is lost between pieces: on an edge that two of them share at least one is met, often both; see
-    /// [`settle`](Self::settle). Where a ray only touches the surface it meets it twice, once or not at all.
+    /// No ray is lost between pieces: on an edge that two of them share at least one is hit, often both; see
+    /// [`settle`](Self::settle). A ray that only touches the surface hits it twice, once or not at all.
     pub(crate) fn meet(&self, piece: usize, origin: DVec3, direction: DVec3, hits: &mut Vec<SurfaceHit>) {
         let ray = Ray { origin, direction };
         match self.plain.get(piece).map(|plain| &plain.piece) {
@@ -81,8 +81,8 @@ impl Traced {
         }
     }
 
-    /// Sorts the hits of one ray on all pieces by t, and makes one of those that are the same place, met on two pieces
-    /// along their common edge: they lie together and face the ray with the same side.
+    /// Sorts the hits of one ray on all pieces by t, and merges hits of two pieces along their common edge: they lie
+    /// together and face the ray with the same side.
     pub(crate) fn settle(&self, direction: DVec3, hits: &mut Vec<SurfaceHit>) {
         hits.sort_by(|a, b| a.t.total_cmp(&b.t));
         let front = |hit: &SurfaceHit| hit.normal.dot(direction) < 0.0;
@@ -91,7 +91,7 @@ impl Traced {
             let is_same = |kept: &SurfaceHit| {
                 kept.position.distance(hit.position) <= SAME_PLACE * self.extent && front(kept) == front(&hit)
             };
-            // Those of another surface that passes through may lie between.
+            // Hits of another surface that passes through may lie between.
             if !settled.iter().any(is_same) {
                 settled.push(hit);
             }

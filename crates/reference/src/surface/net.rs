@@ -1,4 +1,4 @@
-//! Nets of control points, and how they are cut.
+//! Nets of control points, and their subdivision.
 
 use std::ops::{Add, Mul};
 
@@ -24,12 +24,13 @@ impl<P: Copy + Add<Output = P> + Mul<f64, Output = P>> Net<P> {
         }
     }
 
-    /// Cuts each of the curves that begin at an index and go on by a step, by de Casteljau's algorithm in the middle.
+    /// Cuts each of the curves that begin at an index and continue by a step in the middle, by de Casteljau's
+    /// algorithm.
     fn split_curves(&self, curves: impl Iterator<Item = (usize, usize)>, count: usize) -> [Self; 2] {
         let (mut first, mut second) = (self.clone(), self.clone());
         for (start, step) in curves {
             let at = |i: usize| start + i * step;
-            // `second` shrinks to its last point from the left; what it loses first is `first`.
+            // `second` shrinks to its last point from the left; the points that it loses first are `first`.
             for end in 1..count {
                 for i in 0..count - end {
                     second.points[at(i)] = (second.points[at(i)] + second.points[at(i + 1)]) * 0.5;
@@ -52,7 +53,7 @@ impl<P: Copy + Add<Output = P> + Mul<f64, Output = P>> Net<P> {
     }
 }
 
-/// The longest way along the control points, from row to row and along a row.
+/// The longest path along the control points, from row to row and along a row.
 pub(super) fn spans<P: Copy>(net: &Net<P>, distance: impl Fn(P, P) -> f64) -> [f64; 2] {
     let (columns, last_row) = (net.columns, net.points.len() - net.columns);
     let way = |start: usize, step: usize, end: usize| -> f64 {

@@ -1,4 +1,4 @@
-//! Bézier patches, by subdivision until Newton's iteration is sure to find the one place there is.
+//! Bézier patches, subdivided until Newton's iteration is sure to find the single hit.
 
 use bevy_math::{DVec2, DVec3};
 use halfway_mesh::{BezierPatch, Parameter};
@@ -6,22 +6,22 @@ use halfway_mesh::{BezierPatch, Parameter};
 use super::net::{Net, spans};
 use super::ray::{Ray, SurfaceHit, extent};
 
-/// A patch is cut until its pieces are no longer than this share of the whole surface …
+/// A patch is cut until its pieces are no longer than this fraction of the whole surface …
 const PIECE: f64 = 1.0 / 24.0;
 
 /// … or until an edge is cut into 2 to this power.
 const MOST_CUTS: u32 = 6;
 
-/// The share of a piece's size within which a ray meets a point: far above the rounding of f64.
+/// The fraction of a piece's size within which a ray hits a point: far above the rounding of f64.
 const SLACK: f64 = 1e-12;
 
-/// The share of a piece's size below which a cell is a point.
+/// The fraction of a piece's size below which a cell is a point.
 const POINT: f64 = 1e-10;
 
-/// How far outside a cell, in the patch's parameters, a place still belongs to it.
+/// How far outside a cell, in the patch's parameters, a hit still belongs to it.
 const MARGIN: f64 = 1e-10;
 
-/// No ray but one that lies in the surface needs this many cells of a piece.
+/// Only a ray that lies in the surface needs this many cells of a piece.
 const MOST_CELLS: usize = 10_000;
 
 /// Patches in pieces.
@@ -40,7 +40,7 @@ struct Piece {
     center: DVec3,
     /// Its longest extent.
     size: f64,
-    /// How far from a ray a point still is on it.
+    /// The distance from a ray at which a point is still on it.
     slack: f64,
 }
 
@@ -141,27 +141,27 @@ impl Piece {
     }
 }
 
-/// The plane at right angles to a ray, which is seen in it as the point (0, 0).
+/// The plane perpendicular to a ray, in which the ray is the point (0, 0).
 struct Sight {
     origin: DVec3,
     axes: [DVec3; 2],
 }
 
-/// A part of a piece as the ray sees it.
+/// A part of a piece as projected along the ray.
 struct Cell {
     net: Net<DVec2>,
     domain: Domain,
 }
 
-/// What is known of a cell.
+/// The relation of a cell to the ray.
 enum CellCase {
     /// The ray misses it, or only touches it.
     Miss,
-    /// No two of its points are seen in one place: the ray meets it once at most.
+    /// No two of its points coincide in projection: the ray hits it once at most.
     Single,
-    /// It is seen as a point, and with one side only, at this corner.
+    /// Its projection is a point, with one side only, at this corner.
     Point(DVec2),
-    /// Nothing yet.
+    /// Undecided.
     Open,
 }
 
@@ -185,7 +185,7 @@ impl Sight {
         min.max_element() > piece.slack || max.min_element() < -piece.slack
     }
 
-    /// Calls `found` with the parameters and the place of each point of the piece that the ray meets.
+    /// Calls `found` with the parameters and the position of each point of the piece on the ray.
     fn meet(&self, patch: &BezierPatch, piece: &Piece, mut found: impl FnMut(DVec2, DVec3)) {
         let mut cells = vec![Cell { net: piece.net.mapped(|p| self.place(p)), domain: piece.domain }];
         for _ in 0..MOST_CELLS {
@@ -209,7 +209,7 @@ impl Sight {
         }
     }
 
-    /// Newton's iteration from the middle of the domain; `None` where it leaves it by more than its width.
+    /// Newton's iteration from the middle of the domain; `None` if it leaves it by more than its width.
     fn iterate(&self, patch: &BezierPatch, domain: Domain, slack: f64) -> Option<(DVec2, DVec3)> {
         let mut uv = 0.5 * (domain.min + domain.max);
         for _ in 0..12 {
@@ -217,7 +217,7 @@ impl Sight {
             let (f, fu, fv) = (self.place(p), self.way(pu), self.way(pv));
             let step = DVec2::new(fv.perp_dot(f), f.perp_dot(fu)) / fu.perp_dot(fv);
             uv += step;
-            // Not finite where the determinant is 0: then it is not held either.
+            // Not finite if the determinant is 0: then it is not held either.
             if !domain.holds(uv, domain.max - domain.min + DVec2::splat(MARGIN)) {
                 return None;
             }
@@ -239,7 +239,7 @@ impl Cell {
     }
 
     fn verdict(&self, piece: &Piece) -> CellCase {
-        // The box lies along the way in which the cell is seen longest, so that one seen from its edge is thin.
+        // The box is aligned with the longest extent of the projected cell, so that one seen edge-on is thin.
         let [a, b, c, d] = self.net.corners();
         let (down, across) = (c + d - a - b, b + d - a - c);
         let longest = if down.length_squared() > across.length_squared() { down } else { across };
@@ -255,7 +255,7 @@ impl Cell {
         }
         let size = max - min;
         if size.max_element() <= POINT * piece.size {
-            // Rounding may turn the smallest facets round.
+            // Rounding may flip the smallest facets.
             let one_sided = least.abs().min(most.abs()) <= 1e-3 * least.abs().max(most.abs()) && least < most;
             return if one_sided { CellCase::Point(self.nearest_corner()) } else { CellCase::Miss };
         }
@@ -264,8 +264,8 @@ impl Cell {
 
     /// The least and the greatest of the cross products of a step between rows and a step between columns.
     ///
-    /// The difference of two points of the cell is Δu·a + Δv·b with a and b means of such steps. Where all the products
-    /// have one sign, a × b has it too, so that the difference is not 0: no two points are seen in one place.
+    /// The difference of two points of the cell is Δu·a + Δv·b with a and b means of such steps. If all the products
+    /// have one sign, a × b has it too, so that the difference is not 0: no two points coincide in projection.
     fn facing(&self) -> (f64, f64) {
         let (points, columns) = (&self.net.points, self.net.columns);
         let downs = || (columns..points.len()).map(|i| points[i] - points[i - columns]);

@@ -5,13 +5,13 @@ use halfway_mesh::{Disc, Quadric};
 
 use super::ray::{Ray, SurfaceHit};
 
-/// The share of its size by which a piece is taken to be larger, so that rounding loses no ray on the edge between two.
+/// Pieces are enlarged by this fraction of their size, so that rounding loses no ray on the edge between two.
 const SLACK: f64 = 1e-12;
 
-/// A gradient is taken to have vanished where it is at most this share of the terms that it is the sum of.
+/// A gradient has vanished if it is at most this fraction of the terms that it is the sum of.
 const VANISHED: f64 = 1e-12;
 
-/// A discriminant counts as 0 where it is negative by at most this share of its terms: a few of their rounding errors.
+/// A discriminant counts as 0 if it is negative by at most this fraction of its terms: a few of their rounding errors.
 const TOUCHING: f64 = 4.0 * f64::EPSILON;
 
 pub(super) fn meet_quadric(quadric: &Quadric, ray: &Ray, hits: &mut Vec<SurfaceHit>) {
@@ -39,11 +39,11 @@ fn roots(quadric: &Quadric, ray: &Ray) -> [Option<f64>; 2] {
         return [None; 2];
     }
     let sum = -(b + discriminant.max(0.0).sqrt().copysign(b));
-    // Along a cylinder's axis or a cone's side there is one, or none: the quotient is not finite.
+    // Along a cylinder's axis or a cone's side there is one root, or none: the quotient is not finite.
     [sum / a, c / sum].map(|t| Some(t).filter(|t| t.is_finite()))
 }
 
-/// a·b − c·d, with the rounding error of the products added again (W. Kahan, "On the Cost of Floating-Point Computation
+/// a·b − c·d, corrected by the rounding error of the products (W. Kahan, "On the Cost of Floating-Point Computation
 /// Without Extra-Precise Arithmetic", 2004).
 fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let cd = c * d;
@@ -65,7 +65,7 @@ fn normal(quadric: &Quadric, p: DVec3, direction: DVec3) -> DVec3 {
 
 pub(super) fn meet_disc(disc: &Disc, ray: &Ray, hits: &mut Vec<SurfaceHit>) {
     let (beside, t_beside) = ray.beside(disc.center());
-    // Not finite where the ray runs along the disc.
+    // Not finite if the ray runs along the disc.
     let root = (disc.center() - beside.origin).dot(disc.normal()) / ray.direction.dot(disc.normal());
     let (t, position) = (t_beside + root, beside.at(root));
     if t.is_finite() && t > 0.0 && position.distance(disc.center()) <= disc.radius() * (1.0 + SLACK) {

@@ -1,4 +1,4 @@
-//! Rays and where they meet something.
+//! Rays and their hits.
 
 use bevy_math::DVec3;
 
@@ -10,10 +10,10 @@ pub(super) struct Ray {
 }
 
 impl Ray {
-    /// The same line from the place on it that is next to `p`, and the t of that place.
+    /// The same line from the point on it next to `p`, and the t of that point.
     ///
-    /// What is computed from there keeps its digits however far away the ray begins: each coordinate of the new origin
-    /// is rounded once, when it is already small.
+    /// Results from there keep their precision however far away the ray begins: each coordinate of the new origin is
+    /// rounded once, when it is already small.
     pub(super) fn beside(&self, p: DVec3) -> (Self, f64) {
         let Self { origin, direction } = *self;
         let t = (p - origin).dot(direction) / direction.length_squared();
@@ -25,15 +25,15 @@ impl Ray {
     }
 }
 
-/// A place where a ray meets a surface.
+/// A point where a ray hits a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SurfaceHit {
-    /// How far along the ray, in lengths of its direction; positive.
+    /// The distance along the ray, in lengths of its direction; positive.
     pub(crate) t: f64,
-    /// The place.
+    /// The point.
     pub(crate) position: DVec3,
-    /// The outward unit normal there. At the tip of a cone, where there is none, it points away from the
-    /// middle of the piece.
+    /// The outward unit normal there. At the tip of a cone, where there is none, it points away from the middle of the
+    /// piece.
     pub(crate) normal: DVec3,
 }
 

@@ -46,7 +46,7 @@ fn solid(surface: &dyn ParametricSurface) -> Traced {
 }
 
 #[test]
-fn a_sphere_is_met_as_its_closed_form_says() {
+fn a_sphere_is_hit_as_its_closed_form_says() {
     let mut random = Rng::with_seed(1);
     let mut met = 0;
     for radius in [1e-30_f32, 1e-3, 1.0, 7.5, 1e30] {
@@ -81,7 +81,7 @@ fn a_sphere_is_met_as_its_closed_form_says() {
 }
 
 #[test]
-fn a_sphere_far_away_is_met_as_one_nearby() {
+fn a_distant_sphere_is_hit_as_a_near_one() {
     // Origins that are exactly 2²³ directions away from the target, since none of their digits is lost.
     let mut random = Rng::with_seed(2);
     let sphere = sphere(1.0);
@@ -104,7 +104,7 @@ fn a_sphere_far_away_is_met_as_one_nearby() {
 }
 
 #[test]
-fn grazing_rays_meet_a_sphere_twice_or_not_at_all() {
+fn grazing_rays_hit_a_sphere_twice_or_never() {
     let sphere = sphere(1.0);
     for below in [1e-3, 1e-6, 1e-9, 1e-12] {
         let hits = all_hits(&sphere, DVec3::new(-4.0, 1.0 - below, 0.0), DVec3::X);
@@ -119,7 +119,7 @@ fn grazing_rays_meet_a_sphere_twice_or_not_at_all() {
     assert_eq!(all_hits(&sphere, DVec3::new(4.0, 0.0, 0.0), DVec3::X), [], "behind the ray");
 }
 
-/// On every ray from outside the fronts and the backs take turns.
+/// Checks that fronts and backs alternate on every ray from outside.
 fn check_closed(name: &str, solid: &Traced, target: DVec3, direction: DVec3) -> usize {
     let hits = all_hits(solid, target - 10.0 * direction, direction);
     assert!(hits.len().is_multiple_of(2), "{name}: {hits:?}");
@@ -203,7 +203,7 @@ fn patches(surface: &Surface) -> impl Iterator<Item = &BezierPatch> {
     })
 }
 
-/// A surface with the boxes around its pieces, so that thousands of rays do not ask every piece.
+/// A surface with the boxes around its pieces, so that thousands of rays do not test every piece.
 struct Boxed {
     traced: Traced,
     boxes: Vec<(DVec3, DVec3)>,
@@ -235,7 +235,7 @@ impl Boxed {
 }
 
 #[test]
-fn the_teapot_is_cut_into_pieces_that_hold_it() {
+fn the_teapots_pieces_contain_it() {
     let teapot = traced(&Teapot::new(1).into());
     assert!((1000..8000).contains(&teapot.pieces()), "{}", teapot.pieces());
     for piece in 0..teapot.pieces() {
@@ -296,7 +296,7 @@ fn the_vertices_of_a_teapot_lie_on_its_surface() {
 }
 
 #[test]
-fn rays_meet_the_teapot_where_they_meet_a_fine_mesh() {
+fn rays_hit_the_teapot_where_they_hit_a_fine_mesh() {
     let mesh = Mesh::from(Teapot::new(24));
     let teapot = traced(&mesh);
     let mut random = Rng::with_seed(5);
@@ -344,7 +344,7 @@ fn meet_triangle([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Opti
 }
 
 #[test]
-fn rays_through_the_points_where_rows_have_shrunk_are_not_lost() {
+fn rays_through_degenerate_rows_are_not_lost() {
     // The top of the knob, and the middle of the bottom; exactly and a hair beside.
     let teapot = traced(&Teapot::new(1).into());
     for beside in [0.0, 1e-13, 1e-11, 1e-9, 1e-6] {
@@ -361,7 +361,7 @@ fn rays_through_the_points_where_rows_have_shrunk_are_not_lost() {
 }
 
 #[test]
-fn rays_find_the_points_of_patches_of_any_degree_and_shape() {
+fn rays_find_points_of_patches_of_any_degree() {
     // Random control points make folds, cusps and sheets that pass through each other.
     let mut random = Rng::with_seed(7);
     for (rows, columns) in [(2, 2), (3, 3), (4, 4), (5, 7), (8, 3)] {
@@ -387,7 +387,7 @@ fn rays_find_the_points_of_patches_of_any_degree_and_shape() {
 }
 
 #[test]
-fn a_flat_patch_seen_from_its_edge_is_not_there() {
+fn a_flat_patch_seen_edge_on_is_invisible() {
     let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
     let square = [corner(0.0, 0.0), corner(0.0, 1.0), corner(1.0, 0.0), corner(1.0, 1.0)];
     let patch = BezierPatch::new(2, square.to_vec()).unwrap();

@@ -1,4 +1,4 @@
-//! Figures.
+//! Comparisons.
 
 use halfway_lighting::Encoding::{Raw, Srgb};
 use halfway_reference::Image;
@@ -90,16 +90,16 @@ fn coverage_is_counted_apart() {
     assert_eq!(comparison.counted, 2);
     near(comparison.linear.all.max(), 0.1);
     near(comparison.equal, 0.5);
-    // The whole picture is what a tolerance is asked of: here a background that is not black.
+    // Tolerances apply to the whole picture: here a background that is not black.
     assert_eq!((comparison.anywhere.steps, comparison.anywhere.at), (128, (1, 0)));
-    // Where one picture does not know what it covers, all pixels count.
+    // If the coverage of one picture is unknown, all pixels count.
     let unknown = compare(&grey(2, &[0.0; 6]), &expected, Raw).unwrap();
     assert_eq!((unknown.coverage, unknown.counted), (None, 6));
     assert!(comparison.to_string().contains("coverage differs on 2 pixels, first at (1, 0)"), "{comparison}");
 }
 
 #[test]
-fn what_is_no_number_is_reported_and_not_averaged() {
+fn pixels_that_are_not_finite_are_reported_apart() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let expected = grey(2, &[0.5, 0.5, 0.5, 0.25]);
         let actual = grey(2, &[0.5, bad, 0.5, 0.5]);
@@ -140,7 +140,7 @@ fn pictures_without_pixels_are_equal() {
 }
 
 #[test]
-fn a_line_and_a_table_say_where_and_how_far() {
+fn the_line_and_the_table_name_the_largest_error() {
     let mut pixels = vec![[0.5; 3]; 12];
     pixels[7][1] = 0.52;
     let expected = grey(4, &[&[0.25][..], &[0.5; 11]].concat());

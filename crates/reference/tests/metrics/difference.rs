@@ -49,7 +49,7 @@ fn linear_errors_have_a_scale_of_their_own() {
 }
 
 #[test]
-fn coverage_and_what_is_no_number_are_marked() {
+fn coverage_and_not_finite_pixels_are_marked() {
     let expected = grey(2, &[0.5, 0.5, 0.0, 0.5]).with_coverage(vec![true, true, false, true]);
     let actual = grey(2, &[0.5, 0.0, 0.5, f64::NAN]).with_coverage(vec![true, false, true, true]);
     let picture = difference(&actual, &expected, Raw, Scale::default()).unwrap();

@@ -11,7 +11,7 @@ fn plain(value: f64) -> Image {
 }
 
 #[test]
-fn equal_pictures_and_opposite_ones_are_the_ends_of_the_scale() {
+fn equal_and_opposite_pictures_end_the_scale() {
     let nothing = flip(&plain(0.5), &plain(0.5), Srgb).unwrap();
     assert_eq!((nothing.mean, nothing.max, nothing.percentiles), (0.0, 0.0, [0.0; 4]));
     let all = flip(&plain(1.0), &plain(0.0), Srgb).unwrap();
@@ -20,7 +20,7 @@ fn equal_pictures_and_opposite_ones_are_the_ends_of_the_scale() {
 }
 
 #[test]
-fn more_to_see_is_more() {
+fn larger_changes_give_larger_values() {
     let spot = |value: f64, side: u32| {
         let inside = |i: u32| (i % SIDE) < side && (i / SIDE) < side;
         let pixel = |i| if inside(i) { [value; 3] } else { [0.5; 3] };
@@ -35,7 +35,7 @@ fn more_to_see_is_more() {
 }
 
 #[test]
-fn sizes_have_to_agree_and_may_be_nothing() {
+fn sizes_must_agree_and_may_be_zero() {
     let empty = Image::new(0, 0, vec![]);
     assert!(flip(&plain(0.0), &empty, Srgb).is_err());
     assert_eq!(flip(&empty, &empty, Srgb).unwrap().mean, 0.0);

@@ -1,4 +1,4 @@
-//! How far pictures are from each other, on pictures small enough to be counted by hand.
+//! Metrics on pictures small enough to be counted by hand.
 
 #![expect(clippy::float_cmp, reason = "what is compared was put there, or is a whole number")]
 

@@ -1,4 +1,4 @@
-//! What a failing test leaves.
+//! Reports of failing tests.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ fn three_pictures_and_one_line() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_written_hides_nothing() {
+fn an_unwritable_folder_does_not_hide_the_failure() {
     let folder = folder("unwritable");
     fs::create_dir_all(folder.parent().unwrap()).unwrap();
     let _ = fs::remove_file(&folder);

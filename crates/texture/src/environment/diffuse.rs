@@ -1,4 +1,4 @@
-//! What a matt surface receives from an environment.
+//! Diffuse light from an environment.
 
 use std::f64::consts::PI;
 
@@ -23,7 +23,7 @@ impl Environment {
         Harmonics { coefficients: sums.map(|sum| sum.map(|sum| sum * 4.0 * PI / weights)) }
     }
 
-    /// Directions, solid angles and colors of the texels of the first level with no more rows than this.
+    /// Directions, solid angles and colors of the texels of the first level with at most this many rows.
     fn texels_of(&self, rows: u32) -> Vec<([f64; 3], f64, [f64; 4])> {
         let levels = self.images[0].levels();
         let number = levels.iter().position(|level| level.height <= rows).unwrap_or(levels.len() - 1);
@@ -41,27 +41,36 @@ impl Environment {
     }
 }
 
-/// Light in spherical harmonics up to order 2, for matt surfaces: nine colors in place of an image.
+/// Light in spherical harmonics up to order 2, for diffuse surfaces: nine colors in place of an image.
 ///
-/// From Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001. What a surface
-/// receives is nearly all in these: of one far light, the worst case, the largest error is 3/32 of what a surface that
-/// faces it receives; of none it is more.
+/// From Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001. They hold nearly
+/// all of the diffuse light: for one distant light, the worst case, the largest error is 3/32 of the light on a surface
+/// that faces it.
+///
+/// ```
+/// use halfway_texture::environment::Harmonics;
+///
+/// let mut sky = Harmonics::default();
+/// sky.add_far_light([0.0, 1.0, 0.0], [1.0; 4]);
+/// let [up, down] = [1.0, -1.0].map(|y| sky.mean_light([0.0_f64, y, 0.0])[0]);
+/// assert!((up - 1.0).abs() < 0.1 && down.abs() < 0.1);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Harmonics {
-    /// L₀₀, L₁₋₁, L₁₀, L₁₁, L₂₋₂, L₂₋₁, L₂₀, L₂₁, L₂₂, each with four numbers as texels have them.
+    /// L₀₀, L₁₋₁, L₁₀, L₁₁, L₂₋₂, L₂₋₁, L₂₀, L₂₁, L₂₂, each with the four channels of texels.
     pub coefficients: [[f64; 4]; 9],
 }
 
 impl Harmonics {
-    /// Adds a far light that would give a surface facing it `color` of mean light.
+    /// Adds a distant light whose diffuse light on a surface that faces it is `color`.
     pub fn add_far_light(&mut self, direction: [f64; 3], color: [f64; 4]) {
         for (coefficient, value) in self.coefficients.iter_mut().zip(basis(unit(direction))) {
             (0..4).for_each(|k| coefficient[k] += PI * value * color[k]);
         }
     }
 
-    /// The mean light that a matt surface of this normal n receives, (1/π)∫ L(ω) max(n·ω, 0) dω: a constant light stays
-    /// as it is. May be below 0 by the error.
+    /// The diffuse light on a surface of normal n, (1/π)∫ L(ω) max(n·ω, 0) dω: constant light stays as it is. May be
+    /// below 0 by the error.
     pub fn mean_light<T: Number>(&self, normal: [T; 3]) -> [T; 4] {
         let basis = basis(unit(normal));
         let mut sum = [T::zero(); 4];
@@ -73,7 +82,7 @@ impl Harmonics {
         sum
     }
 
-    /// The same as the coefficients of a polynomial of a normal (x, y, z) of length 1, for red, green and blue: of 1,
+    /// The light as the coefficients of a polynomial of a normal (x, y, z) of length 1, for red, green and blue: of 1,
     /// y, z, x, xy, yz, 3z² − 1, xz and x² − y².
     pub fn polynomial(&self) -> [[f64; 3]; 9] {
         // The squares of the harmonics' factors, times π.

@@ -1,4 +1,4 @@
-//! An environment as it is drawn.
+//! Environments prepared for rendering.
 
 use std::sync::Arc;
 
@@ -8,15 +8,26 @@ use super::{Environment, EnvironmentShape, texel_angle};
 use crate::error::TextureError;
 use crate::lookup::{Number, between, mean_of_four};
 
-/// The longest side of a face that is drawn. Larger cube maps, and what a larger one would be made of, are taken
-/// smaller.
+/// The longest side of a rendered face. Larger cube maps, and other shapes that would need a larger one, are reduced.
 pub const MOST_FACE_TEXELS: u32 = 1024;
 
-/// An environment as it is drawn, as an asset: a cube map with its levels, and nine harmonics. Its clones share their
+/// An environment prepared for rendering, as an asset: a cube map with its levels, and nine harmonics. Clones share the
 /// texels.
 ///
-/// Each face has a border of one texel from its neighbours, so that looking it up takes four texels of one face, also
-/// at seams.
+/// Each face has a border of one texel from its neighbours, so that a lookup reads four texels of one face, even at
+/// seams.
+///
+/// ```
+/// use halfway_texture::environment::{Environment, EnvironmentMap, EnvironmentShape};
+///
+/// // A sky that brightens toward the zenith.
+/// let sky = |[_, y, _]: [f64; 3]| [y.max(0.0) as f32, y.max(0.0) as f32, 0.5, 1.0];
+/// let environment = Environment::from_fn(EnvironmentShape::Equirectangular, 32, sky)?;
+/// let map = EnvironmentMap::new(&environment)?;
+/// let [up, down] = [1.0, -1.0].map(|y| map.at([0.0_f64, y, 0.0], 0.0)[0]);
+/// assert!(up > 0.9 && down == 0.0);
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentMap {
     levels: Arc<[EnvironmentLevel]>,
@@ -30,17 +41,17 @@ pub struct EnvironmentMap {
 pub struct EnvironmentLevel {
     /// Texels along a face, without the border.
     pub side: u32,
-    /// The number of the first texel among [`EnvironmentMap::texels`].
+    /// The index of its first texel in [`EnvironmentMap::texels`].
     pub start: usize,
 }
 
 impl EnvironmentMap {
-    /// Makes an environment ready. A cube map stays as it is; of an equirectangular image, faces are half as wide as it
-    /// is high, of a mirroring ball's 1/√8: texels see about as much as before. No face is wider than
+    /// Prepares an environment. A cube map keeps its size; the faces of an equirectangular image are half as wide as it
+    /// is high, those of a mirror ball 1/√8 as wide: about the same angle a texel. No face is wider than
     /// [`MOST_FACE_TEXELS`].
     ///
     /// # Errors
-    /// As of [`TexelImage::new`](crate::TexelImage::new).
+    /// See [`TexelImage::new`](crate::TexelImage::new).
     pub fn new(environment: &Environment) -> Result<Self, TextureError> {
         let size = environment.size()[1];
         let side = match environment.shape() {
@@ -49,12 +60,12 @@ impl EnvironmentMap {
             EnvironmentShape::MirrorBall => (f64::from(size) / 8.0_f64.sqrt()).ceil() as u32,
         };
         if environment.shape() == EnvironmentShape::Cube && side <= MOST_FACE_TEXELS {
-            return Ok(Self::of_cube(environment));
+            return Ok(Self::from_cube(environment));
         }
-        Ok(Self::of_cube(&environment.to_shape(EnvironmentShape::Cube, side.clamp(1, MOST_FACE_TEXELS))?))
+        Ok(Self::from_cube(&environment.to_shape(EnvironmentShape::Cube, side.clamp(1, MOST_FACE_TEXELS))?))
     }
 
-    fn of_cube(cube: &Environment) -> Self {
+    fn from_cube(cube: &Environment) -> Self {
         let (mut levels, mut texels) = (Vec::new(), Vec::new());
         for (number, level) in cube.images()[0].levels().iter().enumerate() {
             levels.push(EnvironmentLevel { side: level.width, start: texels.len() });
@@ -68,13 +79,13 @@ impl EnvironmentMap {
         Self { levels: levels.into(), texels: texels.into(), harmonics, angle }
     }
 
-    /// What stands for one that is missing or broken: squares of magenta and black.
+    /// The placeholder for a missing or broken environment: squares of magenta and black.
     #[expect(clippy::missing_panics_doc, reason = "the image is small, and its numbers are finite")]
     pub fn missing() -> Self {
         let is_odd = |d: [f64; 3]| d.iter().fold(0, |sum, x| sum + (4.0 * (x + 1.0)) as u32) % 2 == 1;
         let color = |d: [f64; 3]| if is_odd(d) { [1.0, 0.0, 1.0, 1.0] } else { [0.0, 0.0, 0.0, 1.0] };
         let cube = Environment::from_fn(EnvironmentShape::Cube, 32, color);
-        Self::of_cube(&cube.expect("a small image of finite numbers"))
+        Self::from_cube(&cube.expect("a small image of finite numbers"))
     }
 
     /// The levels, the finest first, one texel a face last.
@@ -87,27 +98,27 @@ impl EnvironmentMap {
         &self.texels
     }
 
-    /// Its light for matt surfaces.
+    /// Its diffuse light.
     pub fn harmonics(&self) -> &Harmonics {
         &self.harmonics
     }
 
-    /// The side of a square of the mean solid angle of the first level's texels, in radians.
+    /// The side of a square with the mean solid angle of the first level's texels, in radians.
     pub fn angle(&self) -> f64 {
         self.angle
     }
 
-    /// D: the level whose texels have this angle; below 0 where those of the first are wider.
+    /// D: the level whose texels have this angle; below 0 if those of the first are wider.
     pub fn level_of<T: Number>(&self, angle: T) -> T {
         angle.binary_logarithm() - T::of(libm::log2(self.angle))
     }
 
-    /// Whether the two are clones of each other.
+    /// Whether one is a clone of the other.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.texels, &other.texels)
     }
 
-    /// The light from a direction, of any length, between the two levels around `level`.
+    /// The light from a direction, of any length, interpolated between the two levels around `level`.
     pub fn at<T: Number>(&self, direction: [T; 3], level: T) -> [T; 3] {
         let place = on_cube(direction);
         between(self.levels.len(), level, |level| self.in_level(place, level))

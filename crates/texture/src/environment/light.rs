@@ -5,7 +5,7 @@ use halfway_asset::Handle;
 
 use super::drawn::EnvironmentMap;
 
-/// Lights everything from all directions, and shows where it comes from behind everything.
+/// Lights everything from all directions, and shows the environment as the background.
 ///
 /// For a normal n, a direction v toward the viewer and the exponent α of Phong's lobe (β/4 of a Blinn–Phong exponent β)
 /// it adds
@@ -14,22 +14,37 @@ use super::drawn::EnvironmentMap;
 /// I += o·kd·s·E(n) + ks·s·L(2(n·v)n − v, α)
 /// ```
 ///
-/// E is the mean light that a matt surface receives, by nine harmonics; L the light around the mirrored direction, from
-/// the level whose texels are as wide as the lobe; s the strength; o what an image of occlusion has there. Colors and
-/// images multiply kd, and images ks, as they do for lights. It is evaluated at each fragment, whatever the shading;
-/// under flat shading with the triangle's normal.
+/// E is the diffuse light by nine harmonics; L the light around the mirrored direction, from the level whose texels are
+/// as wide as the lobe; s the strength; o the value of an occlusion map. Colors and images multiply kd, and images ks,
+/// as they do for lights. It is evaluated at each fragment, whatever the shading; under flat shading with the
+/// triangle's normal.
 ///
-/// A scene has one: of more the one of the first entity counts, and the renderer says so.
+/// A scene has one: of several, that of the first entity counts, and the renderer warns.
 /// [`TexturePlugin`](crate::TexturePlugin) registers it.
+///
+/// ```
+/// use bevy_app::App;
+/// use halfway_asset::Assets;
+/// use halfway_texture::TexturePlugin;
+/// use halfway_texture::environment::{Environment, EnvironmentLight, EnvironmentMap, EnvironmentShape};
+///
+/// let mut app = App::new();
+/// app.add_plugins(TexturePlugin);
+/// let overcast = Environment::from_fn(EnvironmentShape::Cube, 8, |_| [0.6, 0.7, 0.8, 1.0])?;
+/// let map = EnvironmentMap::new(&overcast)?;
+/// let map = app.world_mut().resource_mut::<Assets<EnvironmentMap>>().add(map);
+/// app.world_mut().spawn(EnvironmentLight { strength: 0.5, ..EnvironmentLight::from(map) });
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct EnvironmentLight {
-    /// The light; while it is not there [`EnvironmentMap::missing`] is.
+    /// The light; until the asset exists, [`EnvironmentMap::missing`] is drawn.
     pub map: Handle<EnvironmentMap>,
-    /// s: multiplies all of it, 0 to 10⁶. Default 1.
+    /// s: multiplies all light of the environment, 0 to 10⁶. Default 1.
     pub strength: f32,
-    /// The environment is turned by this around +Y, in radians, counter-clockwise as seen from above. Default 0.
+    /// The rotation of the environment around +Y, in radians, counter-clockwise as seen from above. Default 0.
     pub rotation: f32,
-    /// Whether it is seen where nothing is drawn, in place of the camera's background. Default true.
+    /// Whether it is visible as the sky, in place of the camera's background. Default true.
     pub sky: bool,
 }
 
@@ -39,19 +54,19 @@ impl From<Handle<EnvironmentMap>> for EnvironmentLight {
     }
 }
 
-/// A number of an [`EnvironmentLight`] that cannot be used.
+/// An invalid field of an [`EnvironmentLight`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WrongEnvironment {
     /// Its name.
     pub field: &'static str,
-    /// The number.
+    /// Its value.
     pub value: f32,
-    /// Those that can be used, in words.
+    /// The valid values, in words.
     pub expected: &'static str,
 }
 
 impl EnvironmentLight {
-    /// The first of its numbers that cannot be used.
+    /// The first invalid field.
     pub fn wrong(&self) -> Option<WrongEnvironment> {
         if !(0.0..=1e6).contains(&self.strength) {
             return Some(WrongEnvironment { field: "strength", value: self.strength, expected: "0 to 1000000" });

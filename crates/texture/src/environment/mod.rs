@@ -1,4 +1,4 @@
-//! Light that arrives from all directions, in an image.
+//! Light from all directions, as images.
 
 mod diffuse;
 mod directions;
@@ -24,10 +24,22 @@ use crate::texels::TexelImage;
 
 /// An image of all directions, with its pyramid: one image, or the six of a cube map.
 ///
-/// Its levels are looked up bilinearly. No seam is seen but the mirroring ball's: an equirectangular image goes on at
-/// its other side, and across a pole on the other side of it, half a texel beside where its width is odd; a cube map
-/// goes on at the neighbouring face, and in its corners, where only three texels meet, the mean of the three is taken
-/// for the fourth.
+/// Its levels are filtered bilinearly, without seams except the mirror ball's: an equirectangular image continues at
+/// its other side, and across a pole on the opposite side, half a texel off if its width is odd; a cube map continues
+/// on the neighbouring face, and in its corners, where only three texels meet, the mean of the three stands for the
+/// fourth.
+///
+/// ```
+/// use halfway_texture::environment::{Environment, EnvironmentShape};
+///
+/// // A red half space in front of the viewer, on a mirror ball; the same light as a cube map.
+/// let red = |[_, _, z]: [f64; 3]| if z < 0.0 { [1.0, 0.0, 0.0, 1.0] } else { [0.0, 0.0, 0.0, 1.0] };
+/// let ball = Environment::from_fn(EnvironmentShape::MirrorBall, 64, red)?;
+/// let cube = ball.to_shape(EnvironmentShape::Cube, 16)?;
+/// assert_eq!(cube.images().len(), 6);
+/// assert!(cube.at([0.3_f64, 0.1, -1.0], 0.0)[0] > 0.9);
+/// # Ok::<(), halfway_texture::TextureError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
     shape: EnvironmentShape,
@@ -35,12 +47,11 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Of one image, or of six of one size. There is no light below 0: what filters leave of it in files is taken
-    /// for 0.
+    /// From one image, or from six of one size. Negative values, which filters leave in some files, are clamped to 0.
     ///
     /// # Errors
-    /// Another number of images; images of a cube that are not square, or of several sizes; a mirroring ball's that is
-    /// not square.
+    /// The wrong number of images; images of a cube that are not square, or of several sizes; a mirror ball that is not
+    /// square.
     pub fn new(shape: EnvironmentShape, images: Vec<TexelImage>) -> Result<Self, TextureError> {
         let count = if shape == EnvironmentShape::Cube { FACES } else { 1 };
         let [width, height] = images.first().map_or([0; 2], TexelImage::size);
@@ -53,11 +64,11 @@ impl Environment {
         Ok(Self { shape, images: images.into_iter().map(|image| Pyramid::new(image.not_below_zero())).collect() })
     }
 
-    /// An environment whose texel in each direction, of length 1, is `color` of it: the middle of the texel stands for
-    /// the whole. Of `size` texels along the height of an equirectangular image, or along each side of the others.
+    /// An environment whose texel in each direction, of length 1, is `color` of it, evaluated at the texel's centre.
+    /// `size` is the height of an equirectangular image, or the side of the others, in texels.
     ///
     /// # Errors
-    /// As of [`TexelImage::new`].
+    /// See [`TexelImage::new`].
     pub fn from_fn(
         shape: EnvironmentShape,
         size: u32,
@@ -80,11 +91,11 @@ impl Environment {
         Self::new(shape, (0..count).map(image).collect::<Result<_, _>>()?)
     }
 
-    /// The same light in another shape, or size: the level, between two of them, whose texels have the new ones' solid
-    /// angle, looked up at each of their middles.
+    /// The same light in another shape or size: sampled at each new texel's centre, from the level whose texels have
+    /// the new ones' solid angle.
     ///
     /// # Errors
-    /// As of [`TexelImage::new`].
+    /// See [`TexelImage::new`].
     pub fn to_shape(&self, shape: EnvironmentShape, size: u32) -> Result<Self, TextureError> {
         let level = (texel_angle(shape, size) / self.angle()).binary_logarithm().max(0.0);
         Self::from_fn(shape, size, |direction| self.at(direction, level).map(|number| number as f32))
@@ -105,12 +116,12 @@ impl Environment {
         self.images[0].size()
     }
 
-    /// The side of a square of the mean solid angle of its texels, in radians.
+    /// The side of a square with the mean solid angle of its texels, in radians.
     pub fn angle(&self) -> f64 {
         texel_angle(self.shape, self.size()[1])
     }
 
-    /// The light from a direction, of any length, between the two levels around `level`.
+    /// The light from a direction, of any length, interpolated between the two levels around `level`.
     pub fn at<T: Number>(&self, direction: [T; 3], level: T) -> [T; 4] {
         let direction = unit(direction);
         between(self.images[0].levels().len(), level, |level| self.in_level(direction, level))
@@ -132,7 +143,7 @@ impl Environment {
         let texels = pyramid.level(level);
         bilinear(on_equirectangular(direction), [at.width, at.height], |[x, y]| {
             let height = i64::from(at.height);
-            // Beyond a pole lies the other side of it, half a turn on.
+            // Beyond a pole lies its other side, half a turn on.
             let beyond = y < 0 || y >= height;
             let row = wrapped_index(Wrap::Mirror, y, at.height);
             let column = wrapped_index(Wrap::Repeat, if beyond { x + i64::from(at.width / 2) } else { x }, at.width);
@@ -152,8 +163,8 @@ impl Environment {
         let inside = |at: i64| (0..i64::from(side)).contains(&at);
         let texel =
             |face: usize, [x, y]: [i64; 2]| self.images[face].level(level)[y as usize * side as usize + x as usize];
-        // Beyond an edge lies the texel of the next face that the place of this texel's middle, on this face's plane,
-        // is seen through: that on the other side of the edge, for any size.
+        // Beyond an edge lies the texel of the next face through which this texel's centre, on this face's plane, is
+        // seen: that on the other side of the edge, for any size.
         let across = |[x, y]: [i64; 2]| {
             let middle = [x, y].map(|at| (at as f64 + 0.5) / f64::from(side));
             let (face, uv) = on_cube(from_cube(face, middle));
@@ -171,14 +182,14 @@ impl Environment {
     }
 }
 
-/// The mean of four texels, by the part of the way from each middle to the next.
+/// The bilinear mean of four texels.
 fn bilinear<T: Number>(uv: [T; 2], size: [u32; 2], texel: impl Fn([i64; 2]) -> [T; 4]) -> [T; 4] {
     let [x, y] = [0, 1].map(|axis| uv[axis] * T::of(size[axis].into()) - T::of(0.5));
     let ([i, j], [f, g]) = ([x, y].map(|x| x.floor().to_i64().unwrap_or(0)), [x - x.floor(), y - y.floor()]);
     mean_of_four([f, g], |[x, y]| texel([i + x as i64, j + y as i64]))
 }
 
-/// The direction of a place, not of length 1 on a cube.
+/// The direction of a point, not normalized on a cube.
 fn direction(shape: EnvironmentShape, face: usize, uv: [f64; 2]) -> [f64; 3] {
     match shape {
         EnvironmentShape::Equirectangular => from_equirectangular(uv),
@@ -187,7 +198,7 @@ fn direction(shape: EnvironmentShape, face: usize, uv: [f64; 2]) -> [f64; 3] {
     }
 }
 
-/// How much of the sphere a texel's middle stands for, in steradians per unit of u·v.
+/// The solid angle at a texel's centre, in steradians per unit of u·v.
 fn density(shape: EnvironmentShape, [u, v]: [f64; 2]) -> f64 {
     let [s, t] = [2.0 * u - 1.0, 2.0 * v - 1.0];
     match shape {
@@ -200,7 +211,7 @@ fn density(shape: EnvironmentShape, [u, v]: [f64; 2]) -> f64 {
     }
 }
 
-/// The side of a square of the mean solid angle of the texels of an environment that is `size` texels high.
+/// The side of a square with the mean solid angle of the texels of an environment that is `size` texels high.
 fn texel_angle(shape: EnvironmentShape, size: u32) -> f64 {
     let size = f64::from(size);
     let texels = match shape {

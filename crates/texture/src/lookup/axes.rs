@@ -7,7 +7,7 @@ use crate::ripmap::Ripmap;
 use crate::sampling::{Sampling, Wrap};
 use crate::sums::{SummedAreas, inside};
 
-/// The four images around the sides' logarithms, weighted by the distances from them.
+/// Interpolates the four images around the logarithms of the rectangle's sides.
 pub(super) fn in_ripmap<T: Number>(
     ripmap: &Ripmap,
     sampling: Sampling,
@@ -33,10 +33,10 @@ pub(super) fn in_ripmap<T: Number>(
     if along_v == T::zero() { a } else { mixed(a, row(j + 1), along_v) }
 }
 
-/// A rectangle is no wider than this many images.
+/// A rectangle is at most this many images wide.
 const WIDEST: f64 = 4096.0;
 
-/// The mean of the rectangle around a point. Sums and their differences are f64, whatever the numbers asked for.
+/// The mean of the rectangle around a point. Sums and their differences are f64, whatever `T` is.
 pub(super) fn mean<T: Number>(
     sums: &SummedAreas,
     size: [u32; 2],
@@ -62,7 +62,7 @@ pub(super) fn mean<T: Number>(
     std::array::from_fn(|k| T::of(sums.mean()[k] + sum[k] / area))
 }
 
-/// The integral over an interval of an axis, whatever lies beyond the image, as a sum of integrals from 0 to places
+/// The integral over an interval of an axis, which may reach beyond the image, as a sum of integrals from 0 to points
 /// inside it, each times a factor.
 struct Interval {
     length: f64,

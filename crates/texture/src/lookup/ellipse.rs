@@ -2,7 +2,7 @@
 //!
 //! P. Heckbert, *Fundamentals of Texture Mapping and Image Warping*, 1989, §3.5: the footprint of a round pixel is an
 //! ellipse, and its texels are weighted by a Gaussian of the distance r² from its middle, which is 1 at its edge. As in
-//! the pyramids of Pharr et al., *Physically Based Rendering*, the weight is e^(−2r²) − e^(−2), so that none jumps at
+//! the pyramids of Pharr et al., *Physically Based Rendering*, the weight is e^(−2r²) − e^(−2), which is continuous at
 //! the edge.
 
 use super::footprint::FootprintShape;
@@ -11,11 +11,11 @@ use crate::halves::Level;
 use crate::pyramid::Pyramid;
 use crate::sampling::Wrap;
 
-/// How many times as long as the short semiaxis the long one may be, before the short one is lengthened.
+/// The largest ratio of the semiaxes; beyond it the short one is lengthened.
 const MOST_ECCENTRIC: f64 = 16.0;
 
-/// How many texels of a level it reaches along an axis at most. Only an image much longer than wide, in levels that are
-/// one texel wide, would ask for more.
+/// The farthest texel of a level along an axis. Only an image much longer than wide, in levels that are one texel wide,
+/// would need more.
 const FARTHEST: f64 = 64.0;
 
 /// The mean over the ellipse.
@@ -78,7 +78,7 @@ fn in_level<T: Number>(
     super::in_level(pyramid, level, wrap, crate::sampling::TexelFilter::Bilinear, uv)
 }
 
-/// r² = a·x² + 2b·xy + c·y², with what it takes to find where it is 1.
+/// r² = a·x² + 2b·xy + c·y², with the determinant to find where it is 1.
 struct Ellipse<T> {
     a: T,
     b: T,
@@ -88,7 +88,7 @@ struct Ellipse<T> {
 }
 
 impl<T: Number> Ellipse<T> {
-    /// In texels of a level; nothing where no number describes it.
+    /// In texels of a level; `None` if it is not finite.
     fn new(footprint: &FootprintShape<T>, short: T, scale: [T; 2]) -> Option<Self> {
         let [u, v] = footprint.direction();
         let [long, short] = [footprint.long.max(short), short];
@@ -105,12 +105,12 @@ impl<T: Number> Ellipse<T> {
         (finite(inverse) > T::zero()).then_some(found)
     }
 
-    /// How far it reaches along u and along v.
+    /// Its extent along u and along v.
     fn reach(&self) -> [T; 2] {
         [(self.c / self.determinant).sqrt(), (self.a / self.determinant).sqrt()]
     }
 
-    /// From where to where it reaches at a height over its middle.
+    /// Its interval along u at a height over its middle.
     fn span(&self, y: T) -> Option<[T; 2]> {
         let root = self.a - self.determinant * y * y;
         if root < T::zero() {
@@ -152,7 +152,7 @@ fn weight<T: Number>(r2: T) -> T {
     (power - T::of(std::f64::consts::E.recip())).max(T::zero())
 }
 
-/// A coordinate in texels, within one period of the image, or within reach of it.
+/// A coordinate in texels, reduced to one period of the image, or clamped to within reach of it.
 fn within<T: Number>(wrap: Wrap, u: T, side: T, reach: T) -> T {
     let two = T::of(2.0);
     match wrap {

@@ -15,7 +15,7 @@ pub(super) struct FootprintShape<T> {
 }
 
 impl<T: Number> FootprintShape<T> {
-    /// Of how (u, v) changes from a pixel to the next along x, and along y.
+    /// From the derivatives of (u, v) along x and along y of the picture.
     pub(super) fn new(size: [u32; 2], footprint: [[T; 2]; 2]) -> Self {
         let [width, height] = size.map(|side| T::of(side.into()));
         let [a, b] = footprint.map(|[u, v]| [u * width, v * height]);
@@ -23,14 +23,14 @@ impl<T: Number> FootprintShape<T> {
         let half = T::of(0.5);
         let (middle, apart) = (half * (uu + vv), half * (uu - vv));
         let long = (middle + (apart * apart + uv * uv).sqrt()).sqrt();
-        // det(a b) = σ₁σ₂, which loses less than the difference of the eigenvalues does.
+        // det(a b) = σ₁σ₂, which loses less precision than the difference of the eigenvalues.
         let area = (a[0] * b[1] - a[1] * b[0]).abs();
         let short = if long > T::zero() { (area / long).min(long) } else { T::zero() };
         Self { moments: [uu, uv, vv], long, short }
     }
 
-    /// Whether it is a footprint, and none of more than 10⁹ texels, as it is near a horizon. So large a one is squared
-    /// in single precision without leaving its range.
+    /// Whether it is finite and covers at most 10⁹ texels, unlike near a horizon. A footprint of that size can be
+    /// squared in single precision.
     pub(super) fn has_an_end(&self) -> bool {
         self.moments[0] + self.moments[2] <= T::of(1e18)
     }
@@ -40,13 +40,13 @@ impl<T: Number> FootprintShape<T> {
         let [uu, uv, vv] = self.moments;
         let apart = T::of(0.5) * (uu - vv);
         let radius = (apart * apart + uv * uv).sqrt();
-        // An eigenvector of the larger eigenvalue; of the two forms the one that does not cancel.
+        // An eigenvector of the larger eigenvalue, in that of its two forms that does not cancel.
         let [u, v] = if apart >= T::zero() { [apart + radius, uv] } else { [uv, radius - apart] };
         let length = (u * u + v * v).sqrt();
         if length > T::zero() { [u / length, v / length] } else { [T::one(), T::zero()] }
     }
 
-    /// The sides along u and v of a rectangle that is as spread out as the footprint: √uu and √vv.
+    /// The sides along u and v of a rectangle with the variances of the footprint: √uu and √vv.
     ///
     /// The footprint is the parallelogram of a and b; a point that is evenly distributed over it has the covariance
     /// M/12, and one over a rectangle of these sides the variances uu/12 and vv/12.

@@ -1,11 +1,24 @@
-//! The filters: what an image has at a point, given its footprint.
+//! The filters: the value of an image at a point, given its footprint.
 //!
-//! | where | what happens |
+//! | case | result |
 //! |---|---|
-//! | u or v is no finite number | taken for 0 |
-//! | a footprint without an end, or of more than 10⁹ texels where its shape counts | the last level |
-//! | a footprint that is no number | the image is enlarged |
-//! | a level of one texel along an axis | that texel, whatever lies beyond |
+//! | u or v is not finite | as 0 |
+//! | an infinite footprint, or one of more than 10⁹ texels under a filter by shape | the last level |
+//! | a footprint that is NaN | the image is magnified |
+//! | a level of one texel along an axis | that texel, whatever the wrap |
+//!
+//! ```
+//! use halfway_texture::lookup::{filtered, level};
+//! use halfway_texture::{Pyramid, Sampling, TexelImage};
+//!
+//! let ramp = Pyramid::new(TexelImage::from_fn(64, 64, |x, _| [x as f32 / 63.0; 4])?);
+//! // A pixel that covers 4 × 2 texels: the level of its longer side is 2.
+//! let footprint = [[4.0 / 64.0, 0.0], [0.0, 2.0 / 64.0]];
+//! assert_eq!(level(ramp.size(), footprint), 2.0_f64);
+//! let [gray, ..] = filtered(&ramp, &Sampling::default(), [0.5_f64, 0.5], footprint);
+//! assert!((gray - 0.5).abs() < 0.01);
+//! # Ok::<(), halfway_texture::TextureError>(())
+//! ```
 
 mod axes;
 mod ellipse;
@@ -22,9 +35,9 @@ use crate::pyramid::Pyramid;
 pub(crate) use crate::sampling::wrapped_index;
 use crate::sampling::{Channel, LevelFilter, Sampling, TexelFilter, Wrap};
 
-/// The numbers that filters run in: `f32` and `f64`.
+/// The floating-point types that filters run in: `f32` and `f64`.
 pub trait Number: Float + Debug + Send + Sync + 'static {
-    /// The number of this type nearest to `value`.
+    /// `value` rounded to this type.
     fn of(value: f64) -> Self;
     /// log₂, equal to the bit on every machine.
     #[must_use]
@@ -95,15 +108,15 @@ impl Number for f64 {
     }
 }
 
-/// D = log₂ of the longer side of a footprint, in texels of an image of this size: `footprint` has how (u, v) changes
-/// from a pixel to the next along x, and along y.
+/// D = log₂ of the longer side of a footprint, in texels of an image of this size: `footprint` holds the derivatives of
+/// (u, v) along x and along y of the picture.
 pub fn level<T: Number>(size: [u32; 2], footprint: [[T; 2]; 2]) -> T {
     let [width, height] = size.map(|side| T::of(side.into()));
     let [x, y] = footprint.map(|[u, v]| (u * width) * (u * width) + (v * height) * (v * height));
     T::of(0.5) * x.max(y).binary_logarithm()
 }
 
-/// What an image has at a point, by its [`Sampling`]; `footprint` as of [`level`].
+/// The value of an image at a point, by its [`Sampling`]; `footprint` as in [`level`].
 pub fn filtered<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], footprint: [[T; 2]; 2]) -> [T; 4] {
     if sampling.levels == sampling.levels.by_level() {
         return at_level(pyramid, sampling, uv, level(pyramid.size(), footprint));
@@ -124,12 +137,12 @@ pub fn filtered<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], f
     }
 }
 
-/// The same at a point of this D; filters that go by the footprint's shape are [`LevelFilter::Linear`] here.
+/// The value at a point of level D; filters by the footprint's shape become [`LevelFilter::Linear`].
 pub fn at_level<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d: T) -> [T; 4] {
     let Sampling { wrap, magnify, minify, levels } = *sampling;
     let uv = uv.map(finite);
     let last = T::of((pyramid.levels().len() - 1) as f64);
-    // What is no number enlarges.
+    // NaN magnifies.
     if d.is_nan() || d <= T::zero() {
         return in_level(pyramid, 0, wrap, magnify, uv);
     }
@@ -141,14 +154,14 @@ pub fn at_level<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d
     }
 }
 
-/// The two levels around D, weighted by the distance from it; the first of all where D ≤ 0.
+/// Interpolates the two levels around D; the first level if D ≤ 0.
 fn between_levels<T: Number>(pyramid: &Pyramid, wrap: [Wrap; 2], filter: TexelFilter, uv: [T; 2], d: T) -> [T; 4] {
     between(pyramid.levels().len(), d, |level| in_level(pyramid, level, wrap, filter, uv))
 }
 
-/// The same of what this number of levels have.
+/// Interpolates the values of two of so many levels around D.
 pub(crate) fn between<T: Number, const N: usize>(levels: usize, d: T, level: impl Fn(usize) -> [T; N]) -> [T; N] {
-    // What is no number is no maximum.
+    // `max` drops NaN.
     let d = d.max(T::zero()).min(T::of((levels - 1) as f64));
     let (finer, part) = (d.floor(), d - d.floor());
     let finer = finer.to_usize().unwrap_or_default();
@@ -160,20 +173,20 @@ fn finite<T: Number>(x: T) -> T {
     if x.is_finite() { x } else { T::zero() }
 }
 
-/// The part `part` of the way from `a` to `b`.
+/// Linear interpolation from `a` to `b`.
 fn mixed<T: Number, const N: usize>(a: [T; N], b: [T; N], part: T) -> [T; N] {
     std::array::from_fn(|channel| a[channel] + part * (b[channel] - a[channel]))
 }
 
-/// The mean of four texels, numbered 0 and 1 along each axis, by the parts of the way from 0 to 1.
+/// The bilinear mean of four texels, numbered 0 and 1 along each axis, by the fractions of the way from 0 to 1.
 pub(crate) fn mean_of_four<T: Number, const N: usize>(parts: [T; 2], texel: impl Fn([usize; 2]) -> [T; N]) -> [T; N] {
     let row = |j: usize| mixed(texel([0, j]), texel([1, j]), parts[0]);
     mixed(row(0), row(1), parts[1])
 }
 
-/// How one number of an image changes along u and along v at a point of this D, per unit of u and v: the difference
-/// half a texel of the level to either side. In one level and with a bilinear filter that is the derivative of the
-/// quadratic B-spline through the texels, which has no steps.
+/// The derivatives of one channel along u and along v at a point of level D, per unit of u and v: the difference half a
+/// texel of the level to either side. In one level and with a bilinear filter that is the derivative of the quadratic
+/// B-spline through the texels, which is continuous.
 pub fn gradient<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d: T, channel: Channel) -> [T; 2] {
     let reduced = sampling.levels != LevelFilter::None && d > T::zero();
     let last = T::of((pyramid.levels().len() - 1) as f64);
@@ -191,7 +204,7 @@ pub fn gradient<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d
     })
 }
 
-/// What one level has at a point.
+/// The value of one level at a point.
 pub fn in_level<T: Number>(
     pyramid: &Pyramid,
     level: usize,
@@ -203,7 +216,7 @@ pub fn in_level<T: Number>(
     in_image(pyramid.level(level), [width, height], wrap, filter, uv)
 }
 
-/// The same of texels that are no level of a pyramid.
+/// The value of texels that are not a level of a pyramid.
 fn in_image<T: Number>(
     texels: &[[f32; 4]],
     [width, height]: [u32; 2],
@@ -225,7 +238,7 @@ fn in_image<T: Number>(
     sum
 }
 
-/// The texels along an axis that a filter takes, and their weights.
+/// The texels along an axis that a filter reads, and their weights.
 struct Taps<T> {
     each: [(usize, T); 4],
     count: usize,
@@ -251,7 +264,7 @@ fn taps<T: Number>(filter: TexelFilter, wrap: Wrap, u: T, side: u32) -> Taps<T> 
     Taps { each, count }
 }
 
-/// The weights of the texels around a point at the part `f` of the way between two, and how many there are.
+/// The weights of the texels around a point at the fraction `f` between two, and how many there are.
 fn weights<T: Number>(filter: TexelFilter, f: T) -> ([T; 4], usize) {
     let cubic = |[c3, c2, c1, c0]: [f64; 4]| ((T::of(c3) * f + T::of(c2)) * f + T::of(c1)) * f + T::of(c0);
     let sixth = |c: [f64; 4]| cubic(c) / T::of(6.0);
@@ -270,7 +283,7 @@ fn weights<T: Number>(filter: TexelFilter, f: T) -> ([T; 4], usize) {
     }
 }
 
-/// A coordinate in texels: taken into the image, or where it ends to within two texels of it, as far as filters reach.
+/// A coordinate in texels, wrapped into the image, or clamped to within two texels of it, the reach of filters.
 fn wrapped<T: Number>(wrap: Wrap, u: T, side: T) -> T {
     let (one, two) = (T::one(), T::of(2.0));
     match wrap {

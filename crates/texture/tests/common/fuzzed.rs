@@ -1,5 +1,5 @@
-//! What fuzzing asks of the reader of images: that it does not panic, that an error names the image, and that what was
-//! read is an image, of numbers in their ranges.
+//! The fuzz target of the image reader: it does not panic, errors name the image, and an image that was read has values
+//! in their ranges.
 
 use std::mem::discriminant;
 
@@ -17,7 +17,7 @@ pub(crate) fn feed(bytes: &[u8]) {
             }
         }
         (Err(color), Err(data)) => {
-            // Not their texts: of an EXR file that is broken in two ways the decoder names either.
+            // Not their texts: of an EXR file with two faults the decoder names either.
             assert_eq!(discriminant(&color), discriminant(&data), "{color}, and {data}");
             assert!(color.to_string().starts_with("fuzzed"), "{color}");
         }

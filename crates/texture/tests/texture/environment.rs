@@ -202,9 +202,9 @@ fn matt_surfaces_receive_the_convolved_light() {
     }
 }
 
-/// Whatever the shape, weights add up to 1.
+/// For every shape, the weights add up to 1.
 #[test]
-fn one_light_everywhere_stays_when_it_is_convolved() {
+fn convolution_keeps_uniform_light() {
     let light = [0.25, 3.0, 1e-3, 1.0];
     for shape in SHAPES {
         let harmonics = Environment::from_fn(shape, 32, |_| light).expect("an environment").harmonics();
@@ -217,7 +217,7 @@ fn one_light_everywhere_stays_when_it_is_convolved() {
 /// Nine coefficients against the exact convolution: one far light is the worst case, with 3/32 of its peak; a sky is
 /// better.
 #[test]
-fn harmonics_of_order_two_err_by_what_is_known_of_them() {
+fn second_order_harmonics_keep_their_error_bound() {
     let toward = unit([0.3, 0.8, -0.5]);
     let mut one = Harmonics::default();
     one.add_far_light(toward, [1.0; 4]);
@@ -317,7 +317,7 @@ fn there_is_no_light_below_zero() {
 }
 
 #[test]
-fn floating_point_files_are_read_and_what_is_no_number_is_refused() {
+fn hdr_files_are_read_and_nan_is_refused() {
     let image = Rgb32FImage::from_fn(4, 2, |x, y| image::Rgb([x as f32 * 3.0, y as f32 + 0.25, 1000.0]));
     let file = |image: &Rgb32FImage, format| {
         let mut bytes = Cursor::new(Vec::new());
@@ -361,7 +361,7 @@ fn all_directions() -> Vec<[f64; 3]> {
 }
 
 #[test]
-fn faces_with_borders_are_looked_up_as_cube_maps_are() {
+fn bordered_faces_agree_with_cube_maps() {
     for size in [1, 2, 5, 16] {
         let cube = waves(size);
         let map = EnvironmentMap::new(&cube).unwrap();
@@ -413,7 +413,7 @@ fn the_polynomial_is_that_of_the_harmonics() {
 }
 
 #[test]
-fn other_shapes_are_drawn_as_cubes_of_as_fine_texels() {
+fn other_shapes_become_cubes_of_equal_resolution() {
     for (shape, size, side) in [
         (EnvironmentShape::Equirectangular, 64, 32),
         (EnvironmentShape::MirrorBall, 64, 23),
@@ -437,7 +437,7 @@ fn other_shapes_are_drawn_as_cubes_of_as_fine_texels() {
 
 /// Turned by a quarter, what lay at +X is seen at −Z.
 #[test]
-fn environments_turn_counter_clockwise_as_seen_from_above() {
+fn rotation_is_counter_clockwise_from_above() {
     let light = EnvironmentLight { rotation: std::f32::consts::FRAC_PI_2, ..EnvironmentLight::from(Handle::default()) };
     let rows = light.environment_from_world();
     let found = rows.map(|[x, y, z]| x * 0.0 + y * 0.0 - z);

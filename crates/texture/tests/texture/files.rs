@@ -1,4 +1,4 @@
-//! Files of images: what they become, and which are refused.
+//! Image files: their decoded texels, and malformed ones.
 
 use halfway_texture::environment::{Environment, EnvironmentMap, EnvironmentShape, MOST_FACE_TEXELS};
 use halfway_texture::{LONGEST_SIDE, MOST_TEXELS, TexelImage, TexelMeaning, TextureError, decode, load};
@@ -37,7 +37,7 @@ fn files_become_linear_light() {
 }
 
 #[test]
-fn what_cannot_be_an_image_is_refused_by_name() {
+fn invalid_images_are_refused_by_name() {
     let whole = png(RgbImage::from_fn(40, 40, |x, y| Rgb([x as u8 * 6, y as u8 * 6, (x * y) as u8])));
     for (bytes, says) in
         [(&b"not an image"[..], "note.png: is no image"), (&whole[..whole.len() / 2], "note.png: "), (&[], "note.png")]
@@ -101,7 +101,7 @@ fn stored(bytes: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn palettes_become_the_colors_that_they_stand_for() {
+fn palettes_are_converted_to_rgb() {
     let file = png_of(&[
         (b"IHDR", &header(3, 1, 3)),
         (b"PLTE", &[255, 0, 51, 0, 102, 255]),
@@ -162,7 +162,7 @@ fn inks(values: [u8; 4]) -> Vec<u8> {
 }
 
 #[test]
-fn inks_become_the_colors_that_they_stand_for() {
+fn cmyk_jpegs_are_converted_to_rgb() {
     let half = 128.0 / 255.0;
     for (values, expected) in [
         ([255, 255, 255, 255], [1.0, 1.0, 1.0]),
@@ -248,7 +248,7 @@ fn resized(format: ImageFormat, [width, height]: [u32; 2]) -> Vec<u8> {
 const FORMATS: [ImageFormat; 4] = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr, ImageFormat::OpenExr];
 
 #[test]
-fn sizes_that_no_image_has_are_refused_in_every_format() {
+fn impossible_sizes_are_refused_in_every_format() {
     for format in FORMATS {
         let name = format!("{format:?}");
         let found = decode(&resized(format, [40, 40]), &name, TexelMeaning::Color).expect("the size that it has");
@@ -271,7 +271,7 @@ fn sizes_that_no_image_has_are_refused_in_every_format() {
 }
 
 #[test]
-fn files_that_end_early_are_refused_in_every_format() {
+fn truncated_files_are_refused_in_every_format() {
     for format in FORMATS {
         let (name, file) = (format!("{format:?}"), file_in(format));
         for length in [4, 20, file.len() / 3, file.len() / 2, file.len() * 9 / 10] {
@@ -306,7 +306,7 @@ fn files_have_so_many_bytes_at_most() {
 }
 
 #[test]
-fn environments_are_drawn_with_so_many_texels_at_most() {
+fn environments_are_limited_in_size() {
     let cube = Environment::from_fn(EnvironmentShape::Cube, MOST_FACE_TEXELS + 1, |_| [0.25, 0.5, 1.0, 1.0]);
     let map = EnvironmentMap::new(&cube.expect("an environment")).expect("a smaller one");
     assert_eq!(map.levels()[0].side, MOST_FACE_TEXELS);

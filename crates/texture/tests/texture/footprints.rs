@@ -1,4 +1,4 @@
-//! Filters that go by the shape of a footprint: exact cases, f32 against f64, and what sums in f32 lose.
+//! Filters by the shape of a footprint: exact cases, f32 against f64, and the rounding of sums in f32.
 
 use halfway_texture::{LevelFilter, Pyramid, Sampling, TexelFilter, TexelImage, Wrap, lookup};
 use proptest::prelude::*;
@@ -27,7 +27,7 @@ fn distance(a: [f64; 4], b: [f64; 4]) -> f64 {
     (0..4).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max)
 }
 
-/// What a texel is that may lie beyond the image.
+/// The texel at an index that may lie beyond the image.
 fn texel(pyramid: &Pyramid, wrap: Wrap, [x, y]: [i64; 2]) -> [f64; 4] {
     let [width, height] = pyramid.size().map(i64::from);
     let index = |at: i64, side: i64| match wrap {
@@ -55,12 +55,12 @@ fn overlap(x: f64, middle: f64, length: f64) -> f64 {
     ((x + 1.0).min(middle + 0.5 * length) - x.max(middle - 0.5 * length)).max(0.0)
 }
 
-fn of(levels: LevelFilter, wrap: Wrap) -> Sampling {
+fn sampling_by(levels: LevelFilter, wrap: Wrap) -> Sampling {
     Sampling { levels, wrap: [wrap; 2], ..Sampling::default() }
 }
 
 #[test]
-fn every_image_of_a_ripmap_has_the_mean_of_the_image_and_all_take_four_times_its_memory() {
+fn every_ripmap_level_keeps_the_mean() {
     for (width, height) in [(1, 1), (64, 64), (5, 3), (37, 1), (1, 19), (100, 75)] {
         let pyramid = numbered(width, height);
         let ripmap = pyramid.ripmap();
@@ -88,11 +88,11 @@ fn every_image_of_a_ripmap_has_the_mean_of_the_image_and_all_take_four_times_its
 }
 
 #[test]
-fn a_ripmap_is_halved_along_one_axis_where_the_footprint_is_long_there() {
+fn a_ripmap_is_halved_along_the_footprints_long_axis() {
     let pyramid = numbered(16, 16);
     let found = lookup::filtered(
         &pyramid,
-        &of(LevelFilter::Ripmap, Wrap::Repeat),
+        &sampling_by(LevelFilter::Ripmap, Wrap::Repeat),
         [0.3_f64, 0.6],
         [[0.25, 0.0], [0.0, 0.0625]],
     );
@@ -105,7 +105,7 @@ fn a_ripmap_is_halved_along_one_axis_where_the_footprint_is_long_there() {
 }
 
 #[test]
-fn the_mean_of_any_rectangle_is_that_of_its_texels_by_area() {
+fn summed_areas_give_the_mean_of_any_rectangle() {
     let pyramid = numbered(13, 7);
     for wrap in WRAPS {
         for (u, v, width, height) in [
@@ -117,7 +117,7 @@ fn the_mean_of_any_rectangle_is_that_of_its_texels_by_area() {
             (0.9, 1.4, 2.0, 2.0),
         ] {
             let footprint = [[width / 13.0, 0.0], [0.0, height / 7.0]];
-            let found = lookup::filtered(&pyramid, &of(LevelFilter::SummedArea, wrap), [u, v], footprint);
+            let found = lookup::filtered(&pyramid, &sampling_by(LevelFilter::SummedArea, wrap), [u, v], footprint);
             let expected = mean_by(&pyramid, wrap, [[-200, 200], [-100, 100]], |x, y| {
                 overlap(x, u * 13.0, width) * overlap(y, v * 7.0, height)
             });
@@ -136,17 +136,17 @@ fn the_least_rectangle_is_the_bilinear_filter() {
             let uv = [0.173 * f64::from(k) - 4.0, 0.091 * f64::from(k) - 1.0];
             // The longer semiaxis is just over a texel, the shorter far below.
             let footprint = [[1.000_000_1 / 9.0, 0.0], [0.0, 0.01]];
-            let found = lookup::filtered(&pyramid, &of(LevelFilter::SummedArea, wrap), uv, footprint);
+            let found = lookup::filtered(&pyramid, &sampling_by(LevelFilter::SummedArea, wrap), uv, footprint);
             let expected = lookup::in_level(&pyramid, 0, [wrap; 2], TexelFilter::Bilinear, uv);
             assert!(distance(found, expected) < 1e-6, "{wrap:?} {uv:?}");
         }
     }
 }
 
-/// What sums in f32 lose, and what is left of it when the mean is taken off first, and in f64: the mean of 2 × 2 texels
-/// far from the corner where the sums begin, of an image of 1024 × 1024 texels around 0.7.
+/// The rounding errors of sums in f32, of sums without the mean, and of sums in f64: the mean of 2 × 2 texels far from
+/// the corner where the sums begin, of an image of 1024 × 1024 texels around 0.7.
 #[test]
-fn sums_in_single_precision_lose_what_differences_need() {
+fn sums_in_single_precision_are_too_coarse() {
     const SIDE: usize = 1024;
     let value = |x: usize, y: usize| 0.7 + 0.1 * ((x * 131 + y * 71) % 17) as f32 / 16.0;
     let image =
@@ -174,7 +174,7 @@ fn sums_in_single_precision_lose_what_differences_need() {
             [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| f64::from(value(k + i, k + j))).iter().sum::<f64>() / 4.0;
         let [u, v] = [(k + 1) as f64 / SIDE as f64; 2];
         let side = 2.0 / SIDE as f64;
-        let sampling = of(LevelFilter::SummedArea, Wrap::Clamp);
+        let sampling = sampling_by(LevelFilter::SummedArea, Wrap::Clamp);
         let ours = lookup::filtered(&pyramid, &sampling, [u, v], [[side, 0.0], [0.0, side]])[0];
         let found = [f64::from(mean_of(&plain, 0.0, k, k)), f64::from(mean_of(&centered, 0.75, k, k)), ours];
         (0..3).for_each(|kind| off[kind] = off[kind].max((found[kind] - exact).abs()));
@@ -194,7 +194,7 @@ fn probes_lie_along_the_long_axis() {
     let uv = [0.4_f64, 0.55];
     // σ₁ = 12 along (3, 4)/5, σ₂ = 4: three probes of level 2, 4 texels apart, all of weight 1.
     let footprint = [[7.2 * texel, 9.6 * texel], [-3.2 * texel, 2.4 * texel]];
-    let found = lookup::filtered(&pyramid, &of(LevelFilter::Anisotropic16, Wrap::Repeat), uv, footprint);
+    let found = lookup::filtered(&pyramid, &sampling_by(LevelFilter::Anisotropic16, Wrap::Repeat), uv, footprint);
     let probe = |k: f64| {
         let at = [uv[0] + 2.4 * k * texel, uv[1] + 3.2 * k * texel];
         lookup::in_level(&pyramid, 2, [Wrap::Repeat; 2], TexelFilter::Bilinear, at)
@@ -202,7 +202,7 @@ fn probes_lie_along_the_long_axis() {
     let expected: [f64; 4] = std::array::from_fn(|k| (probe(-1.0)[k] + probe(0.0)[k] + probe(1.0)[k]) / 3.0);
     assert!(distance(found, expected) < 1e-9, "{found:?} {expected:?}");
     // Of at most two: level log₂ 6, 6 texels apart, weights ½, 1, ½.
-    let found = lookup::filtered(&pyramid, &of(LevelFilter::Anisotropic2, Wrap::Repeat), uv, footprint);
+    let found = lookup::filtered(&pyramid, &sampling_by(LevelFilter::Anisotropic2, Wrap::Repeat), uv, footprint);
     let probe = |k: f64| {
         let at = [uv[0] + 3.6 * k * texel, uv[1] + 4.8 * k * texel];
         lookup::at_level(&pyramid, &Sampling::default(), at, 6_f64.log2())
@@ -211,7 +211,7 @@ fn probes_lie_along_the_long_axis() {
     assert!(distance(found, expected) < 1e-9, "{found:?} {expected:?}");
     // Of a square there is but one: trilinear.
     let square = [[3.0 * texel, 0.0], [0.0, 3.0 * texel]];
-    let found = lookup::filtered(&pyramid, &of(LevelFilter::Anisotropic8, Wrap::Repeat), uv, square);
+    let found = lookup::filtered(&pyramid, &sampling_by(LevelFilter::Anisotropic8, Wrap::Repeat), uv, square);
     let expected = lookup::filtered(&pyramid, &Sampling::default(), uv, square);
     assert!(distance(found, expected) < 1e-9, "{found:?} {expected:?}");
 }
@@ -223,7 +223,7 @@ fn the_elliptical_mean_is_that_of_a_gaussian() {
     for (wrap, uv) in [(Wrap::Repeat, [0.51, 0.47]), (Wrap::Mirror, [1.97, -0.03]), (Wrap::Clamp, [0.02, 0.99])] {
         // σ₁ = 5 along (4, 3)/5, σ₂ = 1, in texels.
         let footprint = [[4.0 / 64.0, 3.0 / 48.0], [-0.6 / 64.0, 0.8 / 48.0]];
-        let found = lookup::filtered(&pyramid, &of(LevelFilter::Elliptical, wrap), uv, footprint);
+        let found = lookup::filtered(&pyramid, &sampling_by(LevelFilter::Elliptical, wrap), uv, footprint);
         let [cx, cy] = [uv[0] * 64.0, uv[1] * 48.0];
         let expected = mean_by(&pyramid, wrap, [[-200, 300], [-200, 300]], |x, y| {
             let [x, y] = [x + 0.5 - cx, y + 0.5 - cy];
@@ -235,16 +235,17 @@ fn the_elliptical_mean_is_that_of_a_gaussian() {
     }
 }
 
-/// Each filter by shape sees detail along the long axis's normal that the trilinear one has blurred.
+/// Each filter by shape keeps detail across the long axis that the trilinear one blurs.
 #[test]
-fn what_a_thin_footprint_does_not_cover_stays() {
+fn thin_footprints_keep_detail_across_them() {
     // Rows of two colors, and a footprint of 16 texels along them and 1 across.
     let image = TexelImage::from_fn(64, 64, |_, y| [(y % 2) as f32; 4]).expect("an image");
     let pyramid = Pyramid::new(image);
     let footprint = [[16.0 / 64.0, 0.0], [0.0, 1.0 / 64.0]];
     let contrast = |levels| {
-        let at =
-            |row: f64| lookup::filtered(&pyramid, &of(levels, Wrap::Repeat), [0.5, (row + 0.5) / 64.0], footprint)[0];
+        let at = |row: f64| {
+            lookup::filtered(&pyramid, &sampling_by(levels, Wrap::Repeat), [0.5, (row + 0.5) / 64.0], footprint)[0]
+        };
         at(1.0) - at(2.0)
     };
     assert!(contrast(LevelFilter::Linear) < 1e-6);
@@ -263,7 +264,7 @@ fn footprints_without_shape_have_their_cases() {
     let pyramid = numbered(16, 8);
     let uv = [0.37_f64, 0.61];
     for levels in SHAPED {
-        let at = |footprint| lookup::filtered(&pyramid, &of(levels, Wrap::Repeat), uv, footprint);
+        let at = |footprint| lookup::filtered(&pyramid, &sampling_by(levels, Wrap::Repeat), uv, footprint);
         let enlarged = lookup::in_level(&pyramid, 0, [Wrap::Repeat; 2], TexelFilter::Bilinear, uv);
         for footprint in [[[0.0; 2]; 2], [[f64::NAN, 0.0], [0.0, 0.1]], [[0.06, 0.0], [0.0, 0.1]]] {
             assert_eq!(at(footprint), enlarged, "{levels:?} {footprint:?}");
@@ -278,7 +279,7 @@ fn footprints_without_shape_have_their_cases() {
 }
 
 #[test]
-fn large_images_are_halved_by_threads_as_small_ones_are_by_one() {
+fn parallel_halving_agrees_with_one_thread() {
     // 1024 × 60 texels are halved in parallel, its left half alone is not.
     let image = |width| TexelImage::from_fn(width, 60, |x, y| [((x * 31 + y * 17) % 101) as f32; 4]).expect("an image");
     let (wide, narrow) = (Pyramid::new(image(1024)), Pyramid::new(image(512)));
@@ -300,8 +301,8 @@ proptest! {
         footprint in prop::array::uniform2(prop::array::uniform2(-0.4..0.4_f32)),
     ) {
         let pyramid = numbered(32, 19);
-        let single = lookup::filtered(&pyramid, &of(levels, wrap), [u, v], footprint).map(f64::from);
-        let double = lookup::filtered(&pyramid, &of(levels, wrap), [u, v].map(f64::from), footprint.map(|row| row.map(f64::from)));
+        let single = lookup::filtered(&pyramid, &sampling_by(levels, wrap), [u, v], footprint).map(f64::from);
+        let double = lookup::filtered(&pyramid, &sampling_by(levels, wrap), [u, v].map(f64::from), footprint.map(|row| row.map(f64::from)));
         // Texels differ by 1 from neighbour to neighbour, and places by 2⁻²² · 2 · 32 texels: 1.5e-5; levels by as much
         // more.
         prop_assert!(distance(single, double) < 2e-4, "{single:?} {double:?}");
@@ -317,7 +318,7 @@ proptest! {
     ) {
         let pyramid = numbered(32, 19);
         let at = |scale: f64| {
-            lookup::filtered(&pyramid, &of(levels, Wrap::Repeat), [u, v], footprint.map(|row| row.map(|x| scale * x)))
+            lookup::filtered(&pyramid, &sampling_by(levels, Wrap::Repeat), [u, v], footprint.map(|row| row.map(|x| scale * x)))
         };
         prop_assume!(lookup::level([32, 19], footprint) > 0.01);
         prop_assert!(distance(at(1.0), at(1.0 + 1e-9)) < 1e-5, "{:?} {:?}", at(1.0), at(1.0 + 1e-9));

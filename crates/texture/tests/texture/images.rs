@@ -25,7 +25,7 @@ fn distance(a: [f64; 4], b: [f64; 4]) -> f64 {
 }
 
 #[test]
-fn every_level_has_the_mean_of_the_image_and_the_memory_is_four_thirds() {
+fn every_level_keeps_the_mean_at_four_thirds_of_the_memory() {
     for (width, height) in [(1, 1), (2, 2), (64, 64), (5, 3), (37, 1), (1, 19), (100, 75), (127, 129)] {
         let pyramid = numbered(width, height);
         let levels = pyramid.levels();
@@ -45,7 +45,7 @@ fn every_level_has_the_mean_of_the_image_and_the_memory_is_four_thirds() {
 }
 
 #[test]
-fn a_level_is_the_mean_of_what_lies_under_it() {
+fn a_level_is_the_mean_of_the_area_under_it() {
     let row = TexelImage::from_fn(3, 1, |x, _| [x as f32; 4]).expect("three texels");
     // Of three texels one remains; of five two: (0 + 1 + 2/2)/2.5 and (2/2 + 3 + 4)/2.5.
     assert_eq!(Pyramid::new(row).level(1), [[1.0; 4]]);
@@ -54,7 +54,7 @@ fn a_level_is_the_mean_of_what_lies_under_it() {
 }
 
 #[test]
-fn filters_meet_the_texels_where_they_should() {
+fn filters_agree_with_their_formulas() {
     let pyramid = numbered(7, 5);
     for (y, x) in (0..5).flat_map(|y| (0..7).map(move |x| (y, x))) {
         let texel = pyramid.level(0)[y * 7 + x].map(f64::from);
@@ -77,7 +77,7 @@ fn filters_meet_the_texels_where_they_should() {
 }
 
 #[test]
-fn what_lies_beyond_is_the_image_again_or_mirrored_or_its_edge() {
+fn wrapping_repeats_mirrors_or_clamps() {
     let row = Pyramid::new(TexelImage::from_fn(3, 1, |x, _| [x as f32; 4]).expect("a row"));
     for (wrap, expected) in [
         (Wrap::Repeat, [0.0, 1.0, 2.0, 0.0, 1.0, 2.0, 0.0, 1.0, 2.0]),
@@ -95,7 +95,7 @@ fn what_lies_beyond_is_the_image_again_or_mirrored_or_its_edge() {
 }
 
 #[test]
-fn the_level_is_that_of_the_footprints_longer_side() {
+fn the_level_follows_the_footprints_longer_side() {
     let d = |footprint: [[f64; 2]; 2]| lookup::level([64, 32], footprint);
     assert_eq!(d([[1.0 / 64.0, 0.0], [0.0, 1.0 / 32.0]]), 0.0);
     assert_eq!(d([[4.0 / 64.0, 0.0], [0.0, 1.0 / 32.0]]), 2.0);
@@ -105,7 +105,7 @@ fn the_level_is_that_of_the_footprints_longer_side() {
 }
 
 #[test]
-fn levels_are_taken_as_the_filter_says() {
+fn level_filters_choose_their_levels() {
     let pyramid = numbered(16, 16);
     let uv = [0.37_f64, 0.61];
     let of = |levels, d: f64| lookup::at_level(&pyramid, &Sampling { levels, ..Sampling::default() }, uv, d);
@@ -126,7 +126,7 @@ fn levels_are_taken_as_the_filter_says() {
 }
 
 #[test]
-fn coordinates_are_scaled_then_turned_then_moved() {
+fn coordinates_are_scaled_then_rotated_then_translated() {
     let quarter = std::f32::consts::FRAC_PI_2;
     let transform = UvTransform { offset: [0.25, 0.5], rotation: quarter, scale: [2.0, 3.0] };
     let found = UvTransform::apply(&transform.rows(), [1.0_f64, 1.0]);

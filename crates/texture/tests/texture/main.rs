@@ -1,4 +1,4 @@
-//! Images in linear light and what is made of them: files, filters, normals, environments, solids.
+//! Images in linear light: files, filters, normals, environments, solids.
 
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 

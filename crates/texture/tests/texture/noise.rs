@@ -1,4 +1,4 @@
-//! Noise and solids: determinism, statistics, and what is left of them from afar.
+//! Noise and solids: determinism, statistics, and fading with distance.
 
 use halfway_texture::noise::{checker, fractal, gradient_noise, hash, left, marble, wood};
 use proptest::prelude::*;
@@ -30,7 +30,7 @@ fn the_hash_is_the_published_one() {
 }
 
 #[test]
-fn noise_is_zero_at_whole_numbers_and_the_same_everywhere() {
+fn noise_is_zero_at_whole_numbers_and_repeatable() {
     for k in -50..50 {
         assert_eq!(gradient_noise([f64::from(k), f64::from(3 * k), f64::from(-k)]), 0.0);
     }
@@ -56,7 +56,7 @@ fn noise_is_zero_at_whole_numbers_and_the_same_everywhere() {
 }
 
 #[test]
-fn noise_has_the_mean_and_the_variance_that_are_said() {
+fn noise_has_the_documented_mean_and_variance() {
     let count = 200_000;
     let (mut sum, mut squares, mut most) = (0.0, 0.0, 0.0_f64);
     for p in points(count) {

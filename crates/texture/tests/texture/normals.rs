@@ -84,7 +84,7 @@ fn by_moments(spread: &SlopeSpread<f64>, h: [f64; 3], s: f64) -> [f64; 2] {
 /// A highlight over the whole image and over parts of it: the mean over all texels is the truth, and what one lookup
 /// makes of it is nearer with Toksvig's correction than without, and nearer still by moments.
 #[test]
-fn highlights_from_afar_are_nearer_with_corrected_exponents() {
+fn corrected_exponents_improve_distant_highlights() {
     for (steep, s) in [(0.2, 30.0), (0.2, 100.0), (0.4, 30.0), (0.4, 100.0)] {
         let normals = bumps(steep);
         let pyramid = Pyramid::new(normals.clone());
@@ -184,7 +184,7 @@ fn a_lobe_is_as_wide_as_its_normals_and_its_own() {
 
 /// The variance of slopes that a length stands for is (1 − |n|)/|n|: steeper slopes have it times the square.
 #[test]
-fn means_of_steeper_normals_are_shorter_by_the_square() {
+fn steeper_slopes_shorten_the_mean_by_the_square() {
     let texel = |length: f64| [0.5, 0.5, 0.5 * length + 0.5];
     let variance = |length: f64| (1.0 - length) / length;
     for length in [0.2, 0.7, 0.95] {

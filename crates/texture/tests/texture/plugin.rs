@@ -13,7 +13,7 @@ fn add<T: Send + Sync + 'static>(app: &mut App, asset: T) -> Handle<T> {
     app.world_mut().resource_mut::<Assets<T>>().add(asset)
 }
 
-/// Of one kind of asset: what is there before the plugin stays, and what nobody holds goes.
+/// For one kind of asset: assets from before the plugin stay, and those without a handle are removed.
 fn stays<T: Send + Sync + 'static>(make: impl Fn() -> T) {
     let mut app = App::new();
     // Somebody had some before any plugin.
@@ -36,7 +36,7 @@ fn stays<T: Send + Sync + 'static>(make: impl Fn() -> T) {
 }
 
 #[test]
-fn images_stay_when_the_plugin_comes_late_and_when_it_comes_again() {
+fn adding_the_plugin_again_keeps_assets() {
     stays(Texture::missing);
     stays(EnvironmentMap::missing);
 }

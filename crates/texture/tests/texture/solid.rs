@@ -1,4 +1,4 @@
-//! Solids that objects are cut from: where they lie, what they are made of, and what is refused.
+//! Solid textures: their position, their pattern, and invalid fields.
 
 use halfway_texture::noise::{LEAST_WIDTH, checker, fractal, marble, wood};
 use halfway_texture::solid::solid_value;
@@ -67,7 +67,7 @@ fn cubes_have_their_middles_at_whole_numbers() {
 }
 
 #[test]
-fn far_from_a_step_the_checker_is_exact_in_single_precision() {
+fn checkers_are_exact_far_from_an_edge() {
     // As a difference of integrals over the width it was off by 10⁻³ there.
     for k in 0..1000 {
         let x = 7.2 + 0.6 * k as f32 / 1000.0;
@@ -76,7 +76,7 @@ fn far_from_a_step_the_checker_is_exact_in_single_precision() {
 }
 
 #[test]
-fn what_cannot_be_used_is_named() {
+fn invalid_fields_are_named() {
     let right = SolidTexture::default();
     assert_eq!(right.wrong(), None);
     assert_eq!(right.with_octaves(16).wrong(), None);

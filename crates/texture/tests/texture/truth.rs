@@ -131,7 +131,7 @@ proptest! {
         let map = PictureMap { rows: [u, v, [w[0], w[1], 1.0]] };
         let truth = FootprintTruth::new(&pyramid);
         // w from 0.3 to 1.7: texels of one pixel differ in size by up to 180 times.
-        // What halves may differ by is not the error, which the halves share: of 1,500 maps none was off by a thousand
+        // The difference of halves is not the error, which the halves share: of 1,500 maps none was off by a thousand
         // times it.
         let found = truth.mean([wrap; 2], &map, [0.0, 0.0], 1e-7).expect("in front");
         let expected = by_cutting(&pyramid, wrap, &map, [0.0, 0.0]);
@@ -144,7 +144,7 @@ proptest! {
 /// A map under which the halves of a cell agreed by accident, and what came out was off by 1,300 times the tolerance.
 /// Now by less than 200.
 #[test]
-fn halves_that_agree_by_accident_are_halved_again() {
+fn accidental_agreement_is_halved_again() {
     let u = [-0.107_332_341_040_106_75, -0.138_021_010_495_771_5, -0.453_598_998_553_639_4];
     let v = [0.019_625_679_026_754_97, 0.640_505_959_908_465_7, 0.288_833_764_489_275_6];
     let map = PictureMap { rows: [u, v, [0.468_069_274_501_430_77, 0.002_435_498_143_965_650_5, 1.0]] };
@@ -158,7 +158,7 @@ fn halves_that_agree_by_accident_are_halved_again() {
 /// The map's derivatives against differences, and as filters take them: summed areas are exact for a pixel along the
 /// axes.
 #[test]
-fn summed_areas_are_the_truth_of_an_upright_rectangle() {
+fn summed_areas_match_the_truth_for_upright_rectangles() {
     let map = PictureMap { rows: [[0.3, 0.1, 2.0], [-0.2, 0.4, 1.0], [0.02, 0.03, 1.0]] };
     let place = [1.3, 2.1];
     let [along_x, along_y] = map.footprint(place);
@@ -182,7 +182,7 @@ fn summed_areas_are_the_truth_of_an_upright_rectangle() {
 }
 
 #[test]
-fn a_plane_that_is_seen_edge_on_has_a_line_for_a_footprint() {
+fn a_plane_seen_edge_on_has_a_line_as_footprint() {
     let truth = FootprintTruth::new(&checker());
     let line = affine([0.25, 0.0, 0.0], [0.25, 0.0, 0.0]);
     let found = truth.mean(REPEAT, &line, [1.0, 0.0], 1e-6).expect("in front");

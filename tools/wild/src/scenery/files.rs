@@ -1,7 +1,7 @@
 //! The files that scenes name.
 
-/// The files that random scenes name, relative to the folder of the scene, and what they hold: environments, and
-/// normals.
+/// The files that random scenes name, relative to the folder of the scene, and their contents: environments, and
+/// normal maps.
 pub const IMAGES: [(&str, &[u8]); 9] = [
     ("environments/dusk.png", include_bytes!("../../../../tests/wild/environments/dusk.png")),
     ("environments/ball.png", include_bytes!("../../../../tests/wild/environments/ball.png")),

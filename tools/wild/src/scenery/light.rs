@@ -23,7 +23,7 @@ pub(super) fn lights(random: &mut Rng, unit: f64, objects: usize) -> Value {
 }
 
 fn light(random: &mut Rng, unit: f64, objects: usize, brightness: f64) -> Value {
-    let kind = random.of(&["point", "point", "spot", "spot", "directional", "homogeneous"]);
+    let kind = random.choose(&["point", "point", "spot", "spot", "directional", "homogeneous"]);
     let mut light = Object::new();
     light.set("kind", kind.into());
     let bright = if random.percent(4) { random.magnitude(2, 10) } else { 1.0 } * brightness;

@@ -23,14 +23,14 @@ pub(super) fn color(random: &mut Rng, brightness: f64) -> Value {
 }
 
 pub(super) fn shading(random: &mut Rng) -> Value {
-    random.of(&["flat", "gouraud", "phong"]).into()
+    random.choose(&["flat", "gouraud", "phong"]).into()
 }
 
 pub(super) fn reflectance(random: &mut Rng) -> Value {
-    random.of(&["phong", "blinn_phong", "blinn_phong_matched"]).into()
+    random.choose(&["phong", "blinn_phong", "blinn_phong_matched"]).into()
 }
 
-/// What becomes of intensities above 1.
+/// A policy for intensities above 1.
 pub(super) fn intensity(random: &mut Rng) -> Value {
     match random.u64(0..=6) {
         0 => json!("clamp"),
@@ -42,10 +42,10 @@ pub(super) fn intensity(random: &mut Rng) -> Value {
     }
 }
 
-/// What an object is cut from. Some cells a unit: finer ones would need more digits of a place than 32 bits have.
+/// A solid texture. Some cells a unit: finer ones would need more digits of a position than 32 bits have.
 pub(super) fn solid(random: &mut Rng, unit: f64) -> Value {
     let mut solid = Object::new();
-    solid.perhaps(random, 90, "kind", |random| random.of(&["checker", "marble", "wood", "noise"]).into());
+    solid.perhaps(random, 90, "kind", |random| random.choose(&["checker", "marble", "wood", "noise"]).into());
     solid.perhaps(random, 60, "octaves", |random| random.u64(1..=8).into());
     let cells = random.magnitude(-2, 1) / unit;
     let stretched = [0; 3].map(|_| cells * random.between(0.6, 1.4));
@@ -60,7 +60,7 @@ pub(super) fn solid(random: &mut Rng, unit: f64) -> Value {
 
 pub(super) fn material(random: &mut Rng) -> Value {
     if random.percent(25) {
-        return random.of(&PRESETS).into();
+        return random.choose(&PRESETS).into();
     }
     let mut material = Object::new();
     material.perhaps(random, 60, "ambient", |random| color(random, 1.0));

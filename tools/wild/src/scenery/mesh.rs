@@ -17,7 +17,7 @@ pub(super) fn mesh(random: &mut Rng, unit: f64) -> Value {
         35..50 => json!({ "box": { "size": shorts([size, unit * random.between(0.2, 1.6), unit]) } }),
         50..65 => {
             let divisions = random.magnitude(0, 4).floor() as u64;
-            json!({ "plane": { "size": short(size * random.of(&[1.0, 2.0, 8.0])), "divisions": divisions } })
+            json!({ "plane": { "size": short(size * random.choose(&[1.0, 2.0, 8.0])), "divisions": divisions } })
         }
         // Its size is not to be chosen.
         65..75 if (0.25..4.0).contains(&unit) => json!({ "teapot": { "divisions": random.u64(1..=6) } }),

@@ -11,7 +11,7 @@ use crate::random::RngExt;
 pub(super) fn maps(random: &mut Rng) -> Value {
     let mut normal = Object::new();
     normal.set("path", IMAGES[8].0.into());
-    normal.perhaps(random, 85, "far_normals", |random| random.of(&["mean", "toksvig", "lean", "lean"]).into());
+    normal.perhaps(random, 85, "far_normals", |random| random.choose(&["mean", "toksvig", "lean", "lean"]).into());
     // Steeper ones, turned into the surface, or none.
     normal.perhaps(random, 60, "amount", |random| match random.u64(0..=9) {
         0 => json!(0),
@@ -25,12 +25,12 @@ pub(super) fn maps(random: &mut Rng) -> Value {
     normal.perhaps(random, 40, "rotation_deg", |random| json!(short(random.between(-400.0, 400.0))));
     normal.perhaps(random, 40, "offset", |random| shorts([0; 2].map(|_| random.between(-2.0, 2.0))));
     for key in ["wrap_u", "wrap_v"] {
-        normal.perhaps(random, 40, key, |random| random.of(&["repeat", "mirror", "clamp"]).into());
+        normal.perhaps(random, 40, key, |random| random.choose(&["repeat", "mirror", "clamp"]).into());
     }
     for key in ["magnify", "minify"] {
-        normal.perhaps(random, 60, key, |random| random.of(&["bilinear", "b_spline", "catmull_rom"]).into());
+        normal.perhaps(random, 60, key, |random| random.choose(&["bilinear", "b_spline", "catmull_rom"]).into());
     }
-    normal.perhaps(random, 90, "levels", |random| random.of(&LEVELS).into());
+    normal.perhaps(random, 90, "levels", |random| random.choose(&LEVELS).into());
     json!({ "normal": Value::from(normal) })
 }
 

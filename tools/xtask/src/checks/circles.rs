@@ -1,8 +1,8 @@
-//! No circle of files: what one file takes from another, the other takes nothing of it, on whatever way round.
+//! No circle of files: if one file uses another, the other does not use it, directly or through others.
 //!
-//! A file takes from another what it names of it, by `use` or by a path; where the name is re-exported on the way, the
-//! file that defines it counts. To declare a module or to hand a name on is to take nothing. What a module
-//! takes of its own children is not counted either: they are parts of it, and may know it.
+//! A file uses the files whose items it names, by `use` or by a path; where the name is re-exported on the way, the
+//! file that defines it counts. Declaring a module or re-exporting a name is not a use. Uses of a module's own children
+//! do not count either: they are its parts, and it may know them.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ use super::none_of;
 use super::source::{Crate, Meaning};
 use crate::failure::Result;
 
-/// Files by number; for each, the files it takes from, with the names.
+/// Files by number; for each, the files that it uses, with the names.
 type Ties = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 
-/// Looks through every crate of the workspace in `root`.
+/// Checks every crate of the workspace in `root`.
 pub(crate) fn run(root: &Path) -> Result {
     let mut faults = Vec::new();
     for package in packages(root)? {
@@ -26,7 +26,7 @@ pub(crate) fn run(root: &Path) -> Result {
     none_of(&faults)
 }
 
-/// Which file takes what from which.
+/// Which file uses which names of which file.
 fn ties(krate: &Crate) -> Ties {
     let mut ties = Ties::new();
     for (index, module) in krate.modules.iter().enumerate() {
@@ -71,7 +71,7 @@ fn circles(ties: &Ties, root: &Path) -> Vec<String> {
     found
 }
 
-/// The files that one takes from, by whatever many steps; itself only where it is in a circle.
+/// The files that one uses, directly or through others; itself only if it is in a circle.
 fn reachable(ties: &Ties, start: &Path) -> BTreeSet<PathBuf> {
     let mut reached = BTreeSet::new();
     let mut left = vec![start];
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_ties_two_files_is_seen() {
+    fn every_kind_of_use_is_seen() {
         let back = "pub struct Beta; pub fn f(_: crate::a::Alpha) {}";
         let rows = [
             ("use", "use crate::b::Beta; pub struct Alpha;"),
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn what_ties_nothing_is_no_circle() {
+    fn unrelated_files_form_no_circle() {
         let parent = "mod child; pub use child::Child; pub struct Parent;";
         let rows: [(&str, &str, &str); 5] = [
             ("to declare and to hand on", parent, "pub struct Child(super::Parent);"),

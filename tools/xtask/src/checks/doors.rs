@@ -1,4 +1,4 @@
-//! Doors: which room may import which.
+//! Doors: which crates may import which.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use super::metadata::{Package, packages};
 use super::none_of;
 use crate::failure::Result;
 
-/// A room, the rooms it may import, and the crates from outside that it must not know.
+/// A crate, the crates of the workspace that it may import, and the crates from outside that it must not use.
 struct Room {
     name: &'static str,
     imports: &'static [&'static str],
@@ -19,7 +19,7 @@ const fn room(name: &'static str, imports: &'static [&'static str], not: &'stati
 
 const NO_GPU: &[&str] = &["wgpu", "naga", "winit"];
 const NO_WINDOW: &[&str] = &["winit"];
-/// The house, as docs/architecture.md tells it; `*` stands for every room further up in this table.
+/// The rules of docs/architecture.md; `*` stands for every crate further up in this table.
 const ROOMS: [Room; 16] = [
     room("halfway_asset", &[], NO_GPU),
     room("halfway_mesh", &["halfway_asset"], NO_GPU),
@@ -47,7 +47,7 @@ const ROOMS: [Room; 16] = [
     room("xtask", &[], NO_GPU),
 ];
 
-/// Looks at every manifest of the workspace in `root`.
+/// Checks every manifest of the workspace in `root`.
 pub(crate) fn run(root: &Path) -> Result {
     none_of(&faults(&packages(root)?))
 }
@@ -82,7 +82,7 @@ mod tests {
         Package { name: name.into(), dependencies, ..Package::default() }
     }
 
-    /// A room, what it imports, what else it depends on, and the start of its fault.
+    /// A crate, its imports, its other dependencies, and the start of its fault.
     type Row<'a> = (&'a str, &'a [&'a str], &'a [&'a str], Option<&'a str>);
 
     #[test]

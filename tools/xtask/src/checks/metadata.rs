@@ -1,4 +1,4 @@
-//! Cargo's word about the packages of the workspace.
+//! Cargo's metadata about the packages of the workspace.
 
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -11,16 +11,16 @@ use crate::failure::{Failure, Result};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Package {
     pub(crate) name: String,
-    /// The first files of its library and programs; not of its tests and examples.
+    /// The root files of its library and programs; not of its tests and examples.
     pub(crate) roots: Vec<PathBuf>,
-    /// What it is built with, and what its build script is; not what only its tests need.
+    /// Its dependencies and those of its build script; not those of its tests alone.
     pub(crate) dependencies: Vec<Dependency>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Dependency {
     pub(crate) name: String,
-    /// Of this workspace.
+    /// Whether it is in this workspace.
     pub(crate) inside: bool,
 }
 
@@ -32,7 +32,7 @@ pub(crate) fn packages(root: &Path) -> Result<Vec<Package>> {
     metadata(root, read)
 }
 
-/// The names of all programs of tests in the workspace's folders `tests`, each once.
+/// The names of all test programs in the workspace's folders `tests`, each once.
 ///
 /// # Errors
 /// Cargo cannot read the manifests.

@@ -1,6 +1,6 @@
-//! The modules of a crate, read from their files, and what a path means in one of them.
+//! The modules of a crate, read from their files, and the meaning of paths in them.
 //!
-//! What is compiled for tests only is left out.
+//! Code that is compiled for tests only is left out.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -43,7 +43,7 @@ pub(crate) struct Import {
     pub(crate) handed_on: bool,
 }
 
-/// What a path of a crate leads to.
+/// The meaning of a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Meaning {
     Module(usize),
@@ -99,17 +99,17 @@ impl Crate {
         Ok(index)
     }
 
-    /// What a path that is written in module `from` means, or nothing where it leads out of the crate.
+    /// The meaning of a path in module `from`, or `None` if it leads out of the crate.
     pub(crate) fn meaning(&self, from: usize, path: &[String]) -> Option<Meaning> {
         self.follow(from, path, &mut HashSet::new())
     }
 
-    /// What `name` means in module `at`, or nothing.
+    /// The meaning of `name` in module `at`, or `None`.
     pub(crate) fn named(&self, at: usize, name: &str) -> Option<Meaning> {
         self.look_up(at, name, &mut HashSet::new())
     }
 
-    /// Whether a module is below another, by whatever many steps.
+    /// Whether a module is inside another, at any depth.
     pub(crate) fn is_within(&self, module: usize, other: usize) -> bool {
         let parents = std::iter::successors(Some(module), |&at| (at != 0).then(|| self.modules[at].parent));
         parents.skip(1).any(|at| at == other)
@@ -139,7 +139,7 @@ impl Crate {
         if module.defines.contains(name) {
             return Some(Meaning::Item(at, name.to_owned()));
         }
-        // Re-exports may lead in a circle.
+        // Re-exports may form a circle.
         if !seen.insert((at, name.to_owned())) {
             return None;
         }
@@ -161,7 +161,7 @@ impl Crate {
 }
 
 impl Module {
-    /// Takes in an item other than `mod`, `use` and `impl`.
+    /// Records an item other than `mod`, `use` and `impl`.
     fn take(&mut self, item: &Item) {
         self.defines.extend(attributes_and_name(item).1.map(plain));
         self.scan(item.to_token_stream());
@@ -170,7 +170,7 @@ impl Module {
     /// Collects names and paths, also those inside calls of macros.
     fn scan(&mut self, tokens: TokenStream) {
         let mut path: Vec<String> = Vec::new();
-        // How many of the two colons that may go on with the path have been met.
+        // The number of colons found so far, of the two that may continue the path.
         let mut colons = 0;
         for token in tokens {
             match token {

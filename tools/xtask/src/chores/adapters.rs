@@ -38,7 +38,7 @@ pub(crate) fn run(options: &Options) -> Result {
 /// The drivers.
 pub(crate) const NEEDS: [Need; 3] = [LAVAPIPE, OPENGL, SWIFTSHADER];
 
-/// Tests that nothing but a graphics driver can run, by file: those whose names begin so, all where none is named.
+/// Tests that need a graphics driver, by file: those whose names begin so, or all of the file.
 const ABOUT_DRIVERS: [(&str, &[&str]); 15] = [
     ("crates/render/src/gpu/timer.rs", &["frames_that_are_refused_have_no_time"]),
     ("crates/render/src/gpu/draw/pass.rs", &["nothing_is_left_out_without_an_error"]),
@@ -49,7 +49,7 @@ const ABOUT_DRIVERS: [(&str, &[&str]); 15] = [
         &[
             "the_list_has_vulkan_opengl",
             "wgpu_s_own_variable_chooses",
-            "a_name_goes_before_named_drivers",
+            "a_name_outranks_drivers",
             "opengl_is_tried_before_giving_up",
             "a_machine_without_a_session",
         ],
@@ -65,7 +65,7 @@ const ABOUT_DRIVERS: [(&str, &[&str]); 15] = [
         &[
             "pipelines_do_not_grow",
             "what_a_draw_does_not_use",
-            // The CPU reads in place what is sent to wgpu.
+            // The CPU reads in place the data that is uploaded to wgpu.
             "a_change_uploads",
         ],
     ),
@@ -74,12 +74,12 @@ const ABOUT_DRIVERS: [(&str, &[&str]); 15] = [
     ("tests/render/timing.rs", &["the_gpu_is_timed", "frames_that_nobody_waits_for"]),
 ];
 
-/// Arguments of a test program that leave out what is about drivers.
+/// Arguments of a test program that leave out the tests of drivers.
 pub(crate) fn without_drivers() -> Vec<String> {
     skipped(names_about_drivers(|_| true))
 }
 
-/// Tests of libraries that are about drivers, by parts of their names.
+/// Unit tests of drivers, by parts of their names.
 pub(crate) fn units_about_drivers() -> impl Iterator<Item = String> {
     names_about_drivers(|file| file.contains("/src/"))
 }
@@ -120,11 +120,11 @@ const KNOWN_WILD: &str = "known_failures_fail";
 /// The tests of the program `render` that the CPU draws, whatever the adapter: in a file of their own.
 pub(crate) const ON_THE_CPU: &str = "render::conformance::on_the_cpu::";
 
-/// Which of the conformance suite's rows with textures are drawn: drivers take minutes to compile all of them.
+/// The share of the conformance suite's rows with textures to draw: drivers take minutes to compile all of them.
 pub(crate) const SHARE: &str = "HALFWAY_SHARE";
-/// What the tests are to draw with, as parts of what it says of itself: they fail where it is something else.
+/// The adapter that tests must draw with, by parts of its own name: they fail on any other.
 const TESTED: &str = "HALFWAY_TESTED_ADAPTER";
-/// What the adapter is chosen by.
+/// The variable that chooses the adapter.
 pub(crate) const CHOICE: &str = "HALFWAY_ADAPTER";
 
 /// Every variable that chooses an adapter or its ways.
@@ -140,14 +140,14 @@ const CHOICES: [&str; 9] = [
     "EGL_PLATFORM",
 ];
 
-/// An adapter, and how a program is made to draw with it.
+/// An adapter, and the environment that makes a program draw with it.
 pub(crate) struct TriedAdapter {
     name: &'static str,
     tests: Tests,
     /// Whether random scenes are known to fail there that are right elsewhere.
     has_known: bool,
     variables: Vec<(&'static str, String)>,
-    /// Parts of the line that `halfway adapters` prints of it.
+    /// Parts of its line in the output of `halfway adapters`.
     says: [&'static str; 2],
 }
 
@@ -214,9 +214,9 @@ fn all() -> Result<Vec<TriedAdapter>> {
     ])
 }
 
-/// The adapters to try where all tests have run on the CPU and run on the one that `choice` opens, and the share of rows
-/// with textures that these draw. No test runs there again, and the drivers that are left share those rows among them;
-/// with the tests, where these are to draw a share.
+/// The adapters to try where all tests have run on the CPU and run on the one that `choice` opens, and the share of
+/// rows with textures that these draw. No test runs there again, and the drivers that are left share those rows among
+/// them; with the tests, where these are to draw a share.
 ///
 /// # Errors
 /// An adapter is not there.
@@ -243,7 +243,7 @@ fn share(adapters: &mut [TriedAdapter], line: &str, with_tests: bool) -> Option<
     with_tests.then(|| format!("1/{count}"))
 }
 
-/// Tries each adapter, and says in the end what failed on which.
+/// Tests each adapter, and lists the failures at the end.
 ///
 /// # Errors
 /// An adapter is not there, a test fails, or a scene is not as the oracle draws it.
@@ -268,7 +268,7 @@ impl TriedAdapter {
         command.envs(self.variables.iter().map(|(name, value)| (name, value)))
     }
 
-    /// Whether nothing but its name tells it from others.
+    /// Whether only its name distinguishes it from others.
     fn is_chosen_alone(&self) -> bool {
         self.variables.iter().all(|(name, _)| *name == CHOICE)
     }
@@ -401,7 +401,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_cpu_draws_has_tests() {
+    fn cpu_tests_exist() {
         let path = root().join("tests").join(ON_THE_CPU.trim_end_matches("::").replace("::", "/")).with_extension("rs");
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         assert!(text.contains("#[test]") && text.contains("Stage::on_the_cpu("), "{ON_THE_CPU}");

@@ -19,13 +19,13 @@ use crate::setup::{ARM_EMULATOR, ARM_LINKER, Setup};
 pub(crate) struct Options {
     #[command(flatten)]
     setup: Setup,
-    /// What the tests' program takes: parts of the names of tests
+    /// Arguments of the test program: parts of the names of tests
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
     arguments: Vec<OsString>,
 }
 
 const TARGET: &str = "aarch64-unknown-linux-gnu";
-/// Where Debian keeps ARM's libraries of C for the linker and the emulator.
+/// The folder of Debian's ARM libraries for the linker and the emulator.
 const LIBRARIES: &str = "/usr/aarch64-linux-gnu";
 
 /// Sets up, builds and runs.
@@ -41,7 +41,7 @@ pub(crate) fn run(options: &Options) -> Result {
     step("tests on ARM", tests.arg("--").args(&options.arguments))
 }
 
-/// How cargo links for ARM, and runs what it has linked.
+/// Cargo's settings to link for ARM and to run the result.
 fn cross() -> [(&'static str, String); 2] {
     [
         ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER", "aarch64-linux-gnu-gcc".into()),

@@ -6,27 +6,27 @@ use super::program::{self, Program};
 use crate::cargo::root;
 use crate::failure::Result;
 
-/// Where the page goes.
+/// The folder of the page.
 const FOLDER: &str = "out/chart";
 /// The README's chart, made again by all but quick runs.
 const PICTURE: &str = "docs/pictures/chart.svg";
-/// Who wins where, likewise.
+/// The tables of the fastest methods, likewise.
 const TABLES: &str = "docs/fronts.md";
-/// What filters of images cost and lose; made again by their own runs but quick ones.
+/// The tables of texture filters; written by their own runs except quick ones.
 const FILTER_TABLES: &str = "docs/filters.md";
 
-/// Measure what shading costs and what it loses, and write a page of charts to out/chart/
+/// Measure the cost and the error of shading, and write a page of charts to out/chart/
 ///
-/// Error against time of every method on every scene, far lights and viewers, and where methods fail. Writes a page that
-/// opens offline, out/chart/index.html, with chart.json and every chart as SVG beside it, and docs/pictures/chart.svg and
-/// docs/fronts.md. docs/charts.md tells what is measured and how.
+/// Error against time of every method on every scene, distant lights and viewers, and known failure modes. Writes a
+/// page that opens offline, out/chart/index.html, with chart.json and every chart as SVG beside it, and
+/// docs/pictures/chart.svg and docs/fronts.md. docs/charts.md explains the measurements.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
     /// Fewer methods, details, rounds and pixels, in some two minutes; docs/ stays as it is
     #[arg(long)]
     quick: bool,
-    /// Only what filters of images cost and lose, on out/chart/filters.html; in full also docs/filters.md
+    /// Only the cost and the error of texture filters, on out/chart/filters.html; in full also docs/filters.md
     #[arg(long)]
     filters: bool,
 }

@@ -6,7 +6,7 @@ use crate::cargo::{cargo, duration, printed, root, step};
 use crate::checks::{circles, doors};
 use crate::failure::{Failure, Result};
 
-/// Check what must be clean before a change goes in; all of it runs, whichever fails
+/// Run the checks that must pass before a change goes in; all of them run, whichever fails
 #[derive(Args, Debug)]
 pub(crate) struct Options {
     /// Only these; all where none is named
@@ -18,13 +18,13 @@ pub(crate) struct Options {
 enum Check {
     /// The formatting is cargo fmt's
     Formatting,
-    /// Each crate imports only what its door lets in
+    /// Each crate imports only what its door allows
     Doors,
     /// No files of a crate import each other in a circle
     Circles,
-    /// Clippy and the compiler have nothing to say
+    /// Clippy and the compiler have no warnings
     Lints,
-    /// The documentation is whole
+    /// The documentation builds without warnings
     Documentation,
     /// The library builds for those who bring their own window; without wgpu it has none and draws a picture
     Smallest,

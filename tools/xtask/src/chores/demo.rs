@@ -11,14 +11,14 @@ use crate::failure::{Failure, Result};
 use crate::setup::{Need, Setup, WAYLAND_WINDOWS, X11_WINDOWS};
 
 const EXAMPLE: &str = "moving_lights";
-/// The six seconds after which the example's lights are where they were, so that the animation has no jump.
+/// Six seconds, after which the example's lights are back where they began, so that the animation has no jump.
 const FRAMES: &str = "180";
 const SIZE: &str = "640x360";
 
 /// Show moving lights around a model in a window, or record them where there is no display
 ///
-/// Records an animated PNG and a contact sheet in out/. Without a graphics card the CPU draws. What windows need and the
-/// machine lacks (with a display, their libraries) is installed first, by apt-get where it may be used.
+/// Records an animated PNG and a contact sheet in out/. Without a graphics card the CPU draws. Missing requirements of
+/// windows (with a display, their libraries) are installed first, by apt-get where it may be used.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
@@ -27,7 +27,7 @@ pub(crate) struct Options {
     /// Record, even where a display is
     #[arg(long)]
     headless: bool,
-    /// What the lights shine on: an .smf, .obj, .gltf, .glb, .ply or .stl file; assets/teapot.obj unless given
+    /// The model under the lights: an .smf, .obj, .gltf, .glb, .ply or .stl file; assets/teapot.obj unless given
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
 }

@@ -11,7 +11,7 @@ const SCHEMA: &str = "docs/scene.schema.json";
 /// Makes schema and pictures again.
 pub(crate) fn run() -> Result {
     // Before anything is built: a page that cannot be read, or shows something else.
-    let commands = drawing(commands::of_page(&root(), PAGE)?)?;
+    let commands = drawing(commands::from_page(&root(), PAGE)?)?;
     step("build", &mut cargo(["build", "--release", "--bins", "--examples"]))?;
     schema()?;
     for command in &commands {
@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn the_page_can_be_read() {
-        if let Err(problem) = commands::of_page(&root(), PAGE).and_then(drawing) {
+        if let Err(problem) = commands::from_page(&root(), PAGE).and_then(drawing) {
             panic!("{problem}");
         }
     }

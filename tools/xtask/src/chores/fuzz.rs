@@ -9,19 +9,19 @@ use crate::cargo::{announce, cargo, ended, not_started, root, step, written};
 use crate::failure::{Failure, Result};
 use crate::setup::{COMPILER, Setup};
 
-/// The version that is installed where there is none.
+/// The version that is installed if there is none.
 const CARGO_FUZZ: &str = "0.13.2";
 /// Mebibytes that a target may take, its fuzzer's memory of past inputs included.
 const MOST_MEMORY: &str = "-rss_limit_mb=2048";
-/// Seconds that one input may take: a hundred times what any does, which is an image of a few bytes that says that it
-/// is as large as may be.
+/// Seconds for one input: a hundred times the longest, which is an image of a few bytes that claims to have the largest
+/// size.
 const MOST_TIME: &str = "-timeout=60";
-/// Where Linux keeps files in memory.
+/// The folder of files in memory on Linux.
 const MEMORY: &str = "/dev/shm";
 
-/// Feed the readers of model, scene and image files what a fuzzer makes up, and see that they bear it
+/// Feed the readers of model, scene and image files with generated inputs, and check that they do not fail
 ///
-/// Nothing may panic, overflow, hang, or take memory out of proportion, and what is read must be sound. A target for
+/// Nothing may panic, overflow, hang, or take memory out of proportion, and the results must be valid. A target for
 /// each format of models, one for scene files (scene), for images of all formats (image), for material libraries (mtl)
 /// and for the parts of binary glTF (`glb_chunks`). Prints how often each was run; a failing input is kept, and how to
 /// try it again and where to put it as a test is printed.
@@ -34,7 +34,7 @@ pub(crate) struct Options {
     /// How long each target is run
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     seconds: u32,
-    /// What is fuzzed, by name; all where none is named
+    /// The targets, by name; all where none is named
     #[arg(value_name = "TARGET")]
     targets: Vec<String>,
 }
@@ -84,7 +84,7 @@ fn have_cargo_fuzz(setup: Setup) -> Result {
     if there.is_ok_and(|status| status.success()) {
         return Ok(());
     }
-    // It only starts others: to optimise it would take longer than it ever runs.
+    // It only starts other programs: optimising it would take longer than it ever runs.
     let mut install = cargo(["install", "cargo-fuzz", "--version", CARGO_FUZZ, "--locked", "--debug"]);
     if !setup.no_install {
         return step("installing cargo-fuzz", &mut install);
@@ -104,7 +104,7 @@ fn fuzz(command: &str, arguments: &[String]) -> Command {
     cargo
 }
 
-/// Runs a target from its seeds and from what earlier runs found.
+/// Runs a target from its seeds and from the inputs of earlier runs.
 fn fuzzed(target: &str, seconds: u32) -> Result<Counts> {
     let corpus = format!("fuzz/corpus/{target}");
     std::fs::create_dir_all(root().join(&corpus)).map_err(|error| Failure::new(format!("{corpus}: {error}")))?;
@@ -156,7 +156,7 @@ fn past_failures(target: &str) -> (&'static str, String) {
     }
 }
 
-/// What a run counted.
+/// The counters of a run.
 #[derive(Debug, PartialEq, Eq)]
 struct Counts {
     executions: u64,
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_fuzzer_prints_is_read() {
+    fn output_of_the_fuzzer_is_parsed() {
         let said = "INFO: Seed: 1\nDone 9 runs in 1 second(s)\nstat::number_of_executed_units: 54321\n\
                     stat::average_exec_per_sec:     5432\nstat::new_units_added:          7\n\
                     stat::slowest_unit_time_sec:    0\nstat::peak_rss_mb:              43\n";

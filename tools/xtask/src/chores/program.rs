@@ -9,7 +9,7 @@ use clap::Args;
 use crate::cargo::{cargo, root, step};
 use crate::failure::{Failure, Result};
 
-/// What a program is given.
+/// The arguments of a program.
 #[derive(Args, Debug)]
 pub(crate) struct Arguments {
     /// The program's own arguments
@@ -22,7 +22,7 @@ pub(crate) fn wild(options: &Arguments) -> Result {
     run("random scenes", Program::Binary("halfway-wild"), &options.arguments)
 }
 
-/// Draws a scene in which everything changes, for long.
+/// Draws a scene in which everything changes, for a long time.
 pub(crate) fn soak(options: &Arguments) -> Result {
     run("soak", Program::Example("soak"), &options.arguments)
 }
@@ -44,7 +44,7 @@ pub(crate) fn run<A: AsRef<OsStr>>(title: &str, program: Program, arguments: imp
 }
 
 impl Program {
-    /// What names it for cargo.
+    /// Its target for cargo.
     fn target(self) -> [&'static str; 2] {
         match self {
             Self::Binary(name) => ["--bin", name],
@@ -52,7 +52,7 @@ impl Program {
         }
     }
 
-    /// Where cargo puts it: beside this program's own profile.
+    /// Its path: in the folder of this program's own profile.
     fn built(self) -> Result<PathBuf> {
         let here =
             std::env::current_exe().map_err(|error| Failure::new(format!("the folder of this program: {error}")))?;

@@ -8,7 +8,7 @@ use crate::cargo::{cargo, root, step};
 use crate::commands::{self, PageCommand};
 use crate::failure::{Failure, Result};
 
-/// The pages whose commands are promises.
+/// The pages whose commands are tested.
 const PAGES: [&str; 2] = ["README.md", "docs/guide.md"];
 
 /// Run the commands that the README and the guide show, but for the chores that .ci/run runs by itself
@@ -33,10 +33,10 @@ enum Way {
 
 /// Tries the commands of the pages, one after the other.
 pub(crate) fn run(options: &Options) -> Result {
-    // A command that nobody knows how to try is found before any is run.
+    // A command without a known test is found before any is run.
     let mut pages = Vec::new();
     for page in PAGES {
-        pages.push((page, ways(page, commands::of_page(&root(), page)?)?));
+        pages.push((page, ways(page, commands::from_page(&root(), page)?)?));
     }
     for (page, commands) in pages {
         for (shown, way) in &commands {
@@ -114,7 +114,7 @@ mod tests {
     fn the_pages_show_commands_that_are_known() {
         let ways_of = |commands| ways("README.md", commands).map_err(|failure| failure.to_string());
         for page in PAGES {
-            let commands = commands::of_page(&root(), page).unwrap();
+            let commands = commands::from_page(&root(), page).unwrap();
             assert!(ways_of(commands).is_ok_and(|commands| commands.iter().any(|(_, way)| *way == Way::Run)), "{page}");
         }
         let planted = commands::shown("```sh\ncargo run\nrm -r target\n```\n").unwrap();

@@ -18,9 +18,9 @@ use crate::tally::{Tally, counted};
 /// profile, with a summary at the end; nothing is installed.
 ///
 /// --all then also runs the tests of the window, of the charts' page in a browser and of graphics drivers, and those of
-/// pictures on each driver that a bare Debian can have. What is missing for that (Vulkan and OpenGL drivers, the virtual
-/// screen Xvfb, the window manager openbox, the Wayland compositor weston, the browser chromium) is installed by apt-get
-/// where it may be used; otherwise the packages are named.
+/// pictures on each driver that a bare Debian can have. Missing requirements (Vulkan and OpenGL drivers, the virtual
+/// screen Xvfb, the window manager openbox, the Wayland compositor weston, the browser chromium) are installed by
+/// apt-get where it may be used; otherwise the packages are named.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
@@ -34,7 +34,7 @@ pub(crate) struct Options {
     shared: bool,
 }
 
-/// What the tests need beside drivers: a screen with windows, and a browser.
+/// The requirements of the tests beside drivers: a screen with windows, and a browser.
 const NEEDS: [Need; 6] = [VIRTUAL_SCREEN, WINDOW_MANAGER, X11_WINDOWS, COMPOSITOR, WAYLAND_WINDOWS, BROWSER];
 
 /// Programs of tests that need a driver or a screen, all of them.
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_left_out_is_there() {
+    fn skipped_tests_exist() {
         let programs = test_programs(&root()).unwrap();
         for name in ABOUT_MACHINES.iter().chain(&BY_A_DRIVER) {
             assert!(programs.iter().any(|program| program == name), "{name} is no program of tests: {programs:?}");

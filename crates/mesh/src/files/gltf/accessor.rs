@@ -11,18 +11,18 @@ use gltf::buffer::View;
 
 use super::fault::Fault;
 
-/// How many bytes of meshes a byte of data may become. Honest files stay far below: a vertex of a few bytes becomes one
-/// of 64 at most, and an index of one byte, in a strip, three of four bytes.
+/// The most bytes of mesh data that one byte of the file may become. Honest files stay far below: a vertex of a few
+/// bytes becomes one of 64 at most, and an index of one byte, in a strip, three of four bytes.
 const EXPANSION: usize = 64;
 
-/// What an attribute may be made of.
+/// The types that an attribute may have.
 pub(super) struct Attribute {
     shapes: &'static [Dimensions],
     /// Integers among them are normalised.
     types: &'static [DataType],
     /// The types that `KHR_mesh_quantization` adds.
     quantized: &'static [DataType],
-    /// Whether that extension allows integers as they stand.
+    /// Whether that extension allows integers that are not normalised.
     plain: bool,
 }
 
@@ -41,15 +41,15 @@ pub(super) const COLOR: Attribute =
 
 /// Measures accessors and finds their data.
 ///
-/// What is made of them is counted against a budget in proportion to the buffers, so that a small file whose elements
-/// share their data cannot ask for much memory.
+/// The meshes made of them are counted against a budget in proportion to the buffers, so that a small file whose
+/// elements share their data cannot ask for much memory.
 pub(super) struct Accessors<'a> {
     buffers: &'a [Cow<'a, [u8]>],
     bytes: usize,
     budget: usize,
     /// Whether `KHR_mesh_quantization` is used.
     quantized: bool,
-    /// Those of sparse values, written out.
+    /// Sparse accessors, written out.
     dense: HashMap<usize, Rc<[u8]>>,
 }
 
@@ -96,7 +96,7 @@ impl Items<'_> {
             (U16, true) => self.decoded(which, |x| f32::from(u16::from_le_bytes(x)) / 65535.0, make),
             (U16, false) => self.decoded(which, |x| u16::from_le_bytes(x).into(), make),
             (F32, _) => self.decoded(which, f32::from_le_bytes, make),
-            // No attribute is of these.
+            // No attribute has this type.
             (DataType::U32, _) => self.decoded(which, |x| u32::from_le_bytes(x) as f32, make),
         }
     }
@@ -134,7 +134,7 @@ impl<'a> Accessors<'a> {
         Self { buffers, bytes, budget: bytes.saturating_mul(EXPANSION), quantized, dense: HashMap::new() }
     }
 
-    /// Takes the bytes of what is about to be made from the budget.
+    /// Takes the bytes of the next allocation from the budget.
     pub(super) fn spend(&mut self, element: &dyn Fn() -> String, bytes: usize) -> Result<(), Fault> {
         match self.budget.checked_sub(bytes) {
             Some(left) => {
@@ -169,7 +169,7 @@ impl<'a> Accessors<'a> {
         Ok(items.indices())
     }
 
-    /// The items of an accessor, once it is certain that they are there.
+    /// The items of an accessor, after checking that they exist.
     fn items(&mut self, accessor: &Accessor) -> Result<Items<'a>, Fault> {
         self.measure(accessor)?;
         let buffers = self.buffers;
@@ -224,7 +224,7 @@ impl<'a> Accessors<'a> {
         let run = ItemRun { offset: accessor.offset(), count: accessor.count(), item: accessor.size() };
         match accessor.view() {
             Some(view) => self.measure_run(&name(accessor), &view, run)?,
-            // All zero but for the sparse values: nothing but this bounds the count.
+            // All zero but for the sparse values: nothing else bounds the count.
             None if run.count == 0 || run.count > self.bytes => {
                 return Err(Fault::element(
                     name(accessor),
@@ -240,7 +240,7 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// That a run of items lies in its view, and the view in its buffer.
+    /// Checks that a run of items lies in its view, and the view in its buffer.
     fn measure_run(&self, element: &str, view: &View, run: ItemRun) -> Result<(), Fault> {
         let buffer = self.buffers.get(view.buffer().index()).map_or(0, |buffer| buffer.len());
         let fits =
@@ -291,7 +291,7 @@ impl<'a> Accessors<'a> {
         self.check_sparse_indices(&element, accessor, sparse)
     }
 
-    /// That the indices of sparse values grow from one to the next and are in range.
+    /// Checks that the indices of sparse values increase and are in range.
     fn check_sparse_indices(&self, element: &str, accessor: &Accessor, sparse: &Sparse) -> Result<(), Fault> {
         let mut least = 0;
         for i in 0..sparse.count() {

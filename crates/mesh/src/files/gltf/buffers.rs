@@ -84,7 +84,7 @@ fn file(name: &str, uri: &str, around: ModelFolder) -> Result<Vec<u8>, Fault> {
         Fault::element(name.to_owned(), format!("uri {:?}", abridged(uri, "")), expected)
     };
     let decoded = percent_decoded(uri).ok_or_else(refused)?;
-    // A colon makes a scheme, or a drive; a backslash parts folders on some systems and not on others.
+    // A colon makes a scheme, or a drive; a backslash separates folders on some systems and not on others.
     if decoded.contains([':', '\\']) {
         return Err(refused());
     }

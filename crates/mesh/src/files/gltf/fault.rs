@@ -1,11 +1,11 @@
-//! What can be wrong with a glTF file.
+//! Errors of glTF files.
 
 use std::path::Path;
 
 use crate::MeshError;
 use crate::files::LoadError;
 
-/// What is wrong, before the name of the file is put to it.
+/// An error without the name of the file, which is added later.
 #[derive(Debug)]
 pub(super) enum Fault {
     Element {
@@ -18,7 +18,7 @@ pub(super) enum Fault {
         source: MeshError,
     },
     RequiredExtension(String),
-    /// In a file that the document refers to; complete.
+    /// An error in a file that the document refers to, complete.
     Elsewhere(LoadError),
 }
 
@@ -27,7 +27,7 @@ impl Fault {
         Self::Element { element: element.into(), found: found.into(), expected: expected.into() }
     }
 
-    /// Without the element: for what is only a warning.
+    /// The message without the element: for warnings.
     pub(super) fn reason(self) -> String {
         match self {
             Self::Element { found, expected, .. } => format!("{found}; {expected} expected"),
@@ -48,7 +48,7 @@ impl Fault {
     }
 }
 
-/// That the numbers of an element are finite; the JSON reader makes infinities of what is too large for `f32`.
+/// Checks that the numbers of an element are finite; the JSON reader makes infinities of numbers too large for `f32`.
 pub(super) fn check_finite(element: &dyn Fn() -> String, numbers: &[f32]) -> Result<(), Fault> {
     match numbers.iter().find(|x| !x.is_finite()) {
         None => Ok(()),

@@ -24,7 +24,7 @@ pub(super) struct Lookup {
     pub(super) amount: f32,
 }
 
-/// Where texture coordinates lie on an image, and which they are where the extension says so.
+/// The transform of texture coordinates, and the set of coordinates if the extension names one.
 pub(super) struct TexturePlace {
     offset: [f32; 2],
     rotation: f32,
@@ -38,20 +38,20 @@ impl TexturePlace {
         Some(Self { offset: of.offset(), rotation: of.rotation(), scale: of.scale(), set: of.tex_coord() })
     }
 
-    /// Of textures whose transform the library leaves to others.
+    /// From the extension of textures whose transform the `gltf` crate does not read.
     pub(super) fn of_value(value: &Value) -> Option<Self> {
         let TextureTransform { offset, rotation, scale, tex_coord, .. } = serde_json::from_value(value.clone()).ok()?;
         Some(Self { offset: offset.0, rotation: rotation.0, scale: scale.0, set: tex_coord })
     }
 }
 
-/// Reads each image that is asked for once; what cannot be read is a warning.
+/// Reads each image once, when a material first refers to it; an unreadable image is a warning.
 pub(super) struct Images<'a> {
     buffers: &'a [Cow<'a, [u8]>],
     around: ModelFolder<'a>,
     read: HashMap<usize, Arc<[u8]>>,
     pub(super) warnings: Vec<String>,
-    /// The textures that have been asked for, or warned of.
+    /// The textures that have been read, or warned of.
     pub(super) used: Vec<usize>,
 }
 
@@ -60,13 +60,13 @@ impl<'a> Images<'a> {
         Self { buffers, around, read: HashMap::new(), warnings: Vec::new(), used: Vec::new() }
     }
 
-    /// Warns of a texture of a material that is not read, and of what becomes of that.
+    /// Warns of a texture of a material that is not read, and of the consequence.
     pub(super) fn skip(&mut self, (material, field): (usize, &str), texture: &gltf::Texture, then: &str) {
         self.used.push(texture.index());
         self.warnings.push(format!("materials[{material}]: the {field} texture is skipped; {then}"));
     }
 
-    /// A texture of a material, and what it is to that.
+    /// A texture of a material, and its role there.
     pub(super) fn map(
         &mut self,
         (material, field): (usize, &str),

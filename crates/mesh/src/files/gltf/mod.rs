@@ -1,7 +1,7 @@
 //! glTF 2.0, in text and binary.
 //!
-//! The `gltf` crate reads the JSON and checks that what is referred to is there; it does not check that the data are,
-//! and its readers may panic where they are not. So every buffer, view and accessor is measured here before it is read.
+//! The `gltf` crate reads the JSON and checks that every index refers to an element; it does not check that the data
+//! exist, and its readers may panic where they do not. So every buffer, view and accessor is measured before reading.
 
 mod accessor;
 mod buffers;
@@ -37,7 +37,7 @@ pub(super) fn parse(source: Source, format: Format) -> Result<Model, LoadError> 
 }
 
 fn read(bytes: &[u8], is_binary: bool, around: ModelFolder) -> Result<Model, Fault> {
-    // In its place in the file, not copied.
+    // A slice of the file, not a copy.
     let container = if is_binary || bytes.starts_with(b"glTF") { Some(open_container(bytes)?) } else { None };
     let document = open(container.as_ref().map_or(bytes, |glb| &glb.json))?;
     let binary = container.as_ref().and_then(|glb| glb.bin.as_deref());
@@ -68,7 +68,7 @@ fn open_container(bytes: &[u8]) -> Result<Glb<'_>, Fault> {
 
 /// The document, valid as far as the `gltf` crate looks.
 fn open(json: &[u8]) -> Result<Document, Fault> {
-    // A binary file for the text of another, which the `gltf` crate would open without a look at its header.
+    // A binary file in the place of text, which the `gltf` crate would open without checking its header.
     if json.starts_with(b"glTF") {
         return Err(Fault::element("JSON chunk", "binary glTF", "JSON is"));
     }
@@ -78,7 +78,7 @@ fn open(json: &[u8]) -> Result<Document, Fault> {
         let found = format!("version {:?}", json.asset.version);
         return Err(Fault::element("asset.version", found, "version \"2.0\" is"));
     }
-    // The `gltf` crate refuses what it does not read itself.
+    // The `gltf` crate refuses extensions that it does not read itself.
     json.extensions_required.retain(|extension| extension != QUANTIZATION);
     for extension in &json.extensions_required {
         if !ENABLED_EXTENSIONS.contains(&extension.as_str()) {
@@ -87,14 +87,14 @@ fn open(json: &[u8]) -> Result<Document, Fault> {
     }
     check_positions(&json)?;
     check_cameras(&json)?;
-    // Attributes of an application's own, as `_ID`, are allowed; the `gltf` crate takes them for mistakes.
+    // Attributes of an application's own, as `_ID`, are allowed; the `gltf` crate reports them as mistakes.
     for primitive in json.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
         primitive.attributes.remove(&Checked::Invalid);
     }
     Document::from_json(json).map_err(|error| invalid(&error))
 }
 
-/// The header of a binary file: magic, version, length; its reader subtracts from the length without looking.
+/// Checks the header of a binary file (magic, version, length): its reader subtracts from the length unchecked.
 fn check_header(bytes: &[u8]) -> Result<(), Fault> {
     const HEADER: usize = 12;
     let header = |found: String, expected: &str| Fault::element("GLB header", found, expected);
@@ -114,7 +114,7 @@ fn check_header(bytes: &[u8]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// That positions are accessors which exist: the `gltf` crate's validation looks them up first and asks later.
+/// Checks that the accessors of positions exist: the `gltf` crate's validation looks them up before checking.
 fn check_positions(json: &Root) -> Result<(), Fault> {
     for (m, mesh) in json.meshes.iter().enumerate() {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
@@ -132,13 +132,13 @@ fn check_positions(json: &Root) -> Result<(), Fault> {
     Ok(())
 }
 
-/// That cameras have the projection that they say: the `gltf` crate takes it for granted.
+/// Checks that cameras have the projection that they name, which the `gltf` crate takes for granted.
 fn check_cameras(json: &Root) -> Result<(), Fault> {
     for (index, camera) in json.cameras.iter().enumerate() {
         let is_there = match camera.type_ {
             Checked::Valid(CameraType::Perspective) => camera.perspective.is_some(),
             Checked::Valid(CameraType::Orthographic) => camera.orthographic.is_some(),
-            // Which validation finds.
+            // Validation finds this.
             Checked::Invalid => true,
         };
         if !is_there {

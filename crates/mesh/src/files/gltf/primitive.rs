@@ -86,7 +86,7 @@ impl<'a> Primitives<'a> {
         Ok(made)
     }
 
-    /// What a primitive has besides positions, one a vertex; what is left out of it is counted.
+    /// The attributes of a primitive besides positions, one a vertex; those that are left out are counted.
     fn attributes(
         &mut self,
         element: &str,
@@ -108,7 +108,7 @@ impl<'a> Primitives<'a> {
         let uvs = attribute(Semantic::TexCoords(0), &accessor::TEXCOORD, "uv")?;
         let second_uvs = attribute(Semantic::TexCoords(1), &accessor::TEXCOORD, "uv")?;
         let colors = attribute(Semantic::Colors(0), &accessor::COLOR, "colour")?;
-        // Without normals of the file its tangents belong to others.
+        // Tangents of the file belong to normals of the file.
         let tangents = attribute(Semantic::Tangents, &accessor::TANGENT, "tangent")?.filter(|_| normals.is_some());
         self.without_normals += usize::from(normals.is_none());
         self.with_targets += usize::from(primitive.morph_targets().len() > 0);
@@ -202,16 +202,15 @@ fn triangles(mode: Mode, corners: Vec<u32>) -> Vec<u32> {
     }
 }
 
-/// The vertices that the triangles use, and the indices into those. Files may keep all their vertices in one place, of
-/// which a primitive shows a few; then these come in the order of their use.
+/// The vertices that the triangles use, and the indices into those. Files may keep all their vertices in one array, of
+/// which a primitive uses a few; then these come in the order of their use.
 fn used_vertices(indices: Vec<u32>, vertices: usize) -> Result<(Which, Vec<u32>), MeshError> {
     for (at, &index) in indices.iter().enumerate() {
         if index as usize >= vertices {
             return Err(MeshError::IndexOutOfRange { triangle: at / 3, corner: at % 3, index, vertices });
         }
     }
-    // Looked at only where there are enough indices, so that a vertex costs nothing to the primitives that do not use
-    // it.
+    // Checked only where there are enough indices, so that primitives that use few vertices pay nothing for the others.
     let uses_all = indices.len() >= vertices && {
         let mut is_used = vec![false; vertices];
         for &index in &indices {

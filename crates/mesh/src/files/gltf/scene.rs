@@ -1,4 +1,4 @@
-//! The node tree: where meshes and lights stand.
+//! The node tree: the world transforms of meshes and lights.
 
 use bevy_math::{DMat4, DQuat, DVec3, Mat4, Vec4};
 use gltf::camera::{Camera, Projection};
@@ -10,20 +10,20 @@ use super::fault::{Fault, check_finite};
 use super::primitive::Primitives;
 use crate::{Part, SourceCamera, SourceLight, SourceLightKind, SourceProjection};
 
-/// The most parts that are made of one file: nodes and primitives multiply.
+/// The most parts made of one file: nodes and primitives multiply.
 const MOST_PARTS: usize = 1 << 18;
 
-/// How far the last row of a matrix may be from (0, 0, 0, 1): some roundings of `f32`, as a product or an inverse of
+/// How far the last row of a matrix may be from (0, 0, 0, 1): a few roundings of `f32`, as a product or an inverse of
 /// matrices leaves them.
 const ROUNDED: f32 = 1e-5;
 
-/// What stands in the world.
+/// The meshes, lights and cameras of the scene, in world space.
 #[derive(Default)]
 pub(super) struct Contents {
     pub(super) parts: Vec<Part>,
     pub(super) lights: Vec<SourceLight>,
     pub(super) cameras: Vec<SourceCamera>,
-    /// How many matrices have a last row that is mended, and the first of them.
+    /// How many matrices had a last row that was corrected, and the first of them.
     pub(super) mended: Option<(usize, String)>,
 }
 
@@ -60,7 +60,7 @@ struct SceneReader<'r, 'a> {
 }
 
 impl<'a> SceneReader<'_, 'a> {
-    /// Reads what stands at a node; returns where the node stands.
+    /// Reads the contents of a node; returns its transform.
     fn visit(&mut self, node: &Node<'a>, world_from_parent: DMat4) -> Result<DMat4, Fault> {
         let element = || format!("nodes[{}]", node.index());
         if std::mem::replace(&mut self.seen[node.index()], true) {
@@ -100,7 +100,7 @@ impl<'a> SceneReader<'_, 'a> {
     }
 }
 
-/// The transform of a node. A matrix whose last row is off by rounding is mended and counted.
+/// The transform of a node. A matrix whose last row is off by rounding is corrected and counted.
 fn parent_from_node(node: &Node, mended: &mut Option<(usize, String)>) -> Result<DMat4, Fault> {
     let field = |name: &str| format!("nodes[{}].{name}", node.index());
     match node.transform() {

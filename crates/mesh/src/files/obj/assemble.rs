@@ -1,4 +1,4 @@
-//! Parts of what was read.
+//! Turns the statements of a file into parts.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -11,13 +11,13 @@ use crate::normals::{Smoothed, grouped_normals};
 use crate::numbering::{DistinctKeys, Numbering, position_key};
 use crate::{Mesh, MeshError, NormalWeighting, Part};
 
-/// All that faces refer to.
+/// The vertices that faces refer to.
 #[derive(Default)]
 pub(super) struct ObjVertices {
     pub(super) positions: Vec<Vec3>,
     pub(super) uvs: Vec<Vec2>,
     pub(super) normals: Vec<Vec3>,
-    /// Linear, of the first positions; the rest are white.
+    /// Linear RGB of the first positions; the others are white.
     pub(super) colors: Vec<Vec3>,
 }
 
@@ -28,14 +28,14 @@ impl ObjVertices {
     }
 }
 
-/// A part that is growing: the faces of one name and material.
+/// A part under construction: the faces of one name and material.
 pub(super) struct Draft {
     name: String,
     pub(super) material: Option<String>,
     /// The distinct corners, as indices from 1 of position, texture coordinate and normal, 0 for none.
     corners: DistinctKeys,
     indices: Vec<u32>,
-    /// The smoothing group of each triangle; what is missing at the end is 0.
+    /// The smoothing group of each triangle; triangles beyond the end have group 0.
     groups: Vec<u32>,
 }
 
@@ -52,7 +52,7 @@ impl Draft {
         self.indices.extend(corners.map(|corner| self.corners.number(corner)));
     }
 
-    /// The part, and what is needed to make its normals where it has none and `normals_later`; they are +Y until then.
+    /// The part, and, where it has no normals and `normals_later`, the data to compute them; they are +Y until then.
     fn into_part(
         self,
         path: &Path,
@@ -74,7 +74,7 @@ impl Draft {
         let has_normals = given(2, "normal; they get a computed one");
         let missing = keys.iter().filter(|key| key[2] == 0).count();
         let normals = match (has_normals, normals_later) {
-            // Zero stands for one that is to be computed.
+            // Zero marks a normal to be computed.
             (true, _) => Some(picked(&keys, 2, &vertices.normals, Vec3::ZERO)),
             (false, true) => Some(vec![Vec3::Y; keys.len()]),
             (false, false) => None,
@@ -107,14 +107,14 @@ impl Draft {
 struct Unsmoothed {
     /// Its number among the parts.
     part: usize,
-    /// The smoothing group of each triangle; what is missing at the end is 0.
+    /// The smoothing group of each triangle; triangles beyond the end have group 0.
     groups: Vec<u32>,
     /// The position in the file, counted from 0, of each vertex.
     sources: Vec<u32>,
 }
 
-/// The parts of all drafts. Those without normals are smooth together, by smoothing groups where the file speaks of
-/// them: a border between materials or names is no crease.
+/// The parts of all drafts. Those without normals are smoothed together, by smoothing groups if the file has any: a
+/// border between materials or names is not a crease.
 pub(super) fn parts(
     drafts: Vec<Draft>,
     path: &Path,
@@ -144,8 +144,8 @@ pub(super) fn parts(
     Ok(parts)
 }
 
-/// Makes normals. Faces share a point where they use the same `v`, and within one name also where they are at the same
-/// position: things that only touch are not one surface.
+/// Computes normals. Faces share a point if they use the same `v`, and within one name also if they are at the same
+/// position: objects that only touch are separate surfaces.
 fn smooth(parts: &mut [Part], unsmoothed: &[Unsmoothed], positions: &[Vec3]) {
     let mut names = HashMap::new();
     let mut used: Vec<(u32, u32)> = Vec::new();

@@ -42,44 +42,44 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     Ok(Model { parts, materials, warnings, ..Model::default() })
 }
 
-/// What a face refers to.
+/// The indices of a face's corner: keyword and meaning.
 const REFERRED: [(&str, &str); 3] = [("v", "position"), ("vt", "texture coordinate"), ("vn", "normal")];
 
 const CORNERS: &str = "corners of the form v, v/vt, v//vn or v/vt/vn are";
 
-/// A positive index beyond what was defined above its line; the format asks for definition first, but files are about
-/// that do without.
+/// A positive index beyond the vertices defined above its line; the format asks for definition first, but some files
+/// do without.
 #[derive(Clone, Copy, Debug)]
 struct ForwardReference {
     line: usize,
     index: i64,
 }
 
-/// A polygon whose vertices are not there yet, so that it cannot be cut.
+/// A polygon whose vertices are defined later in the file, so that it cannot be cut yet.
 struct LatePolygon {
     draft: usize,
     group: u32,
     corners: Vec<[u32; 3]>,
 }
 
-/// What has been read.
+/// The contents read so far.
 #[derive(Default)]
 struct Obj {
     vertices: ObjVertices,
     drafts: Vec<Draft>,
     /// The drafts by their names and materials.
     draft_of: HashMap<(String, Option<String>), usize>,
-    /// The draft that faces go to; `None` until the next face where the name or the material has changed.
+    /// The draft that faces go to; `None` until the next face after the name or the material has changed.
     current: Option<usize>,
     name: String,
     material: Option<String>,
-    /// The smoothing group of the faces to come, 0 for none; `None` where the file does not speak of them.
+    /// The smoothing group of the faces to come, 0 for none; `None` if the file has no smoothing groups so far.
     smoothing: Option<u32>,
     forward: [Option<ForwardReference>; 3],
     late: Vec<LatePolygon>,
     libraries: Vec<String>,
     used_materials: Vec<(usize, String)>,
-    /// The corners of the face that is being read, and their places.
+    /// The corners of the face being read, and their positions.
     corners: Vec<[u32; 3]>,
     points: Vec<Vec3>,
     skipped: Skipped,
@@ -155,7 +155,7 @@ impl Obj {
         Ok(())
     }
 
-    /// `s off`, `s 0` or `s n`; some programs write `s on` or `s 1` for all that is smooth.
+    /// `s off`, `s 0` or `s n`; some programs write `s on` or `s 1` for smooth surfaces.
     fn smoothing_group(&mut self, statement: &Statement) {
         let word = statement.words().next().unwrap_or_default();
         match (word, word.parse()) {
@@ -192,7 +192,7 @@ impl Obj {
         Ok(())
     }
 
-    /// The place of the draft for the present name and material.
+    /// The index of the draft for the current name and material.
     fn draft(&mut self) -> usize {
         if let Some(current) = self.current {
             return current;
@@ -216,10 +216,10 @@ impl Obj {
         }
     }
 
-    /// Cuts the polygons whose vertices stood below them; all indices are known to be good.
+    /// Cuts the polygons whose vertices came after them; all indices have been checked.
     fn cut_late_polygons(&mut self) {
         for late in std::mem::take(&mut self.late) {
-            // Their lines are forgotten.
+            // Their lines are not kept.
             self.cut(late.draft, late.group, &late.corners, 0);
         }
     }
@@ -230,7 +230,7 @@ impl Obj {
         let mut found = [0; 3];
         for (kind, word) in corner.split('/').enumerate() {
             let place = found.get_mut(kind).ok_or_else(malformed)?;
-            // Some programs write `v//` where there is neither.
+            // Some programs write `v//` for a corner with neither.
             if kind > 0 && word.is_empty() {
                 continue;
             }
@@ -250,11 +250,11 @@ impl Obj {
         if absolute > count && self.forward[kind].is_none_or(|furthest| absolute > furthest.index) {
             self.forward[kind] = Some(ForwardReference { line: statement.line, index });
         }
-        // Beyond 32 bits is beyond every count, which the check of forward references says.
+        // An index beyond 32 bits is beyond every count, which the check of forward references reports.
         Ok(u32::try_from(absolute).unwrap_or(u32::MAX))
     }
 
-    /// Only the furthest of each kind has to be looked at.
+    /// Checks the largest reference of each kind, which bounds the others.
     fn check_forward_references(&self, path: &Path) -> Result<(), LoadError> {
         for (kind, count) in self.vertices.counts().into_iter().enumerate() {
             if let Some(ForwardReference { line, index }) =
@@ -266,7 +266,7 @@ impl Obj {
         Ok(())
     }
 
-    /// The materials of all MTL files, each read once. What cannot be read is a warning.
+    /// The materials of all MTL files, each read once. An unreadable file is a warning.
     fn read_libraries(
         &self,
         around: ModelFolder,
@@ -306,8 +306,8 @@ impl Obj {
     }
 }
 
-/// Materials by their names. A name may hold spaces and `#` ("Material #25"), and a comment may follow it: what is
-/// looked for is first the whole, then what stands before ` #`.
+/// Materials by their names. A name may hold spaces and `#` ("Material #25"), and a comment may follow it: the whole
+/// text is looked up first, then the text before ` #`.
 struct NamedMaterials<'a>(HashMap<&'a str, usize>);
 
 impl<'a> NamedMaterials<'a> {

@@ -9,14 +9,14 @@ use crate::files::source::{ModelFolder, Reader};
 use crate::files::text::{Skipped, Statement, Statements, abridged};
 use crate::{MtlMaps, MtlMaterial, SourceChannel, SourceMap, SourceMaterial, SourceWrap};
 
-/// Appends the materials of an MTL file; returns what was skipped.
+/// Appends the materials of an MTL file; skipped statements are warnings.
 ///
 /// - `Ka Kd Ks Ke`: three finite numbers, or one for all three; spectra (`spectral`, `xyz`) are skipped with a warning.
 /// - `Ns d Tr`: one finite number; `d -halo` is skipped with a warning.
 /// - `illum`: a number from 0 to 255.
 /// - `map_Kd map_Ks map_Ke map_d map_Ns norm map_Bump` (also `map_bump`, `bump`): options `-s -o -clamp -imfchan`, of
-///   bumps `-bm`, and a file; others are skipped with a warning. What cannot be read is a warning.
-/// - Other textures are skipped with a warning, everything else in silence.
+///   bumps `-bm`, and a file; other options are skipped with a warning. An unreadable image is a warning.
+/// - Other textures are skipped with a warning, all other statements in silence.
 pub(super) fn parse(
     reader: Reader,
     around: ModelFolder,
@@ -55,7 +55,7 @@ pub(super) fn parse(
     Ok(skipped.warnings(&path))
 }
 
-/// Where the image of a statement goes, of those that are read.
+/// The field for the image of a statement, if it is read.
 fn map_place(keyword: &str) -> Option<fn(&mut MtlMaps) -> &mut Option<SourceMap>> {
     let place: fn(&mut MtlMaps) -> &mut Option<SourceMap> = match keyword {
         "map_Kd" => |maps| &mut maps.kd,
@@ -84,7 +84,7 @@ struct MapOptions {
 }
 
 impl MapOptions {
-    /// Takes them from the words of a statement.
+    /// Reads the options at the beginning of a statement's words.
     fn read<'a>(
         words: &mut Peekable<impl Iterator<Item = &'a str>>,
         statement: &Statement,

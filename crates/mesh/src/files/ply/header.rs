@@ -1,10 +1,10 @@
-//! The header: which elements follow, and how they are written.
+//! The header: the elements of the file, and their encoding.
 
 use crate::files::LoadError;
 use crate::files::source::Reader;
 use crate::files::text::abridged;
 
-/// How the elements are written.
+/// The encoding of the elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PlyEncoding {
     Ascii,
@@ -26,7 +26,7 @@ pub(super) enum Scalar {
 }
 
 impl Scalar {
-    fn of(name: &str) -> Option<Self> {
+    fn from_name(name: &str) -> Option<Self> {
         Some(match name {
             "char" | "int8" => Self::I8,
             "uchar" | "uint8" => Self::U8,
@@ -44,7 +44,7 @@ impl Scalar {
         matches!(self, Self::F32 | Self::F64)
     }
 
-    /// The value that stands for 1 in colours.
+    /// The value that means 1 in colours.
     pub(super) fn one(self) -> f64 {
         match self {
             Self::I8 => 127.0,
@@ -67,11 +67,11 @@ pub(super) struct Property {
     pub(super) list: Option<Scalar>,
 }
 
-/// So many elements of a kind.
+/// Elements of one kind.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     pub(super) name: String,
-    /// On the word of the file.
+    /// The count that the file claims, unchecked.
     pub(super) count: u64,
     pub(super) properties: Vec<Property>,
 }
@@ -84,7 +84,7 @@ pub(super) struct Header {
     pub(super) lines: usize,
 }
 
-/// Reads up to and with `end_header`.
+/// Reads the header, including `end_header`.
 pub(super) fn parse(reader: &mut Reader) -> Result<Header, LoadError> {
     let mut encoding = None;
     let mut elements: Vec<Element> = Vec::new();
@@ -152,10 +152,10 @@ pub(super) fn parse(reader: &mut Reader) -> Result<Header, LoadError> {
 fn property(words: &[&str]) -> Option<Property> {
     match *words {
         [_, "list", length, scalar, name] => {
-            let length = Scalar::of(length).filter(|length| !length.is_float())?;
-            Some(Property { name: name.to_owned(), scalar: Scalar::of(scalar)?, list: Some(length) })
+            let length = Scalar::from_name(length).filter(|length| !length.is_float())?;
+            Some(Property { name: name.to_owned(), scalar: Scalar::from_name(scalar)?, list: Some(length) })
         }
-        [_, scalar, name] => Some(Property { name: name.to_owned(), scalar: Scalar::of(scalar)?, list: None }),
+        [_, scalar, name] => Some(Property { name: name.to_owned(), scalar: Scalar::from_name(scalar)?, list: None }),
         _ => None,
     }
 }

@@ -13,8 +13,8 @@ use super::text::abridged;
 use super::{LoadError, polygon};
 use crate::{Mesh, Model, Part};
 
-/// Reads `vertex` (positions, normals, colours, texture coordinates), `face` and `tristrips`; what else there is, is
-/// skipped with a warning.
+/// Reads `vertex` (positions, normals, colours, texture coordinates), `face` and `tristrips`; all else is skipped with
+/// a warning.
 pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let Source { path, mut reader, .. } = source;
     let header = header::parse(&mut reader)?;
@@ -56,7 +56,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     Ok(Model { parts: vec![part], warnings, ..Model::default() })
 }
 
-/// The properties of a vertex that are read, in the order of a vertex's slots.
+/// The vertex properties that are read, in the order of a vertex's slots.
 const SLOTS: [&[&str]; 12] = [
     &["x"],
     &["y"],
@@ -72,7 +72,7 @@ const SLOTS: [&[&str]; 12] = [
     &["alpha", "a", "diffuse_alpha"],
 ];
 
-/// The properties of faces that list their corners.
+/// The names of the face property that lists the corners.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 #[derive(Default)]
@@ -82,7 +82,7 @@ struct PlyContent {
     uvs: Option<Vec<Vec2>>,
     colors: Option<Vec<Vec4>>,
     indices: Vec<u32>,
-    /// The corners of the face that is being read, and their places.
+    /// The corners of the face being read, and their positions.
     corners: Vec<u32>,
     points: Vec<Vec3>,
     crossed: usize,
@@ -165,7 +165,7 @@ impl PlyContent {
         })
     }
 
-    /// Strips, each from one −1 to the next.
+    /// Strips, each ended by −1.
     fn strips(&mut self, element: &Element, values: &mut Values) -> Result<(), LoadError> {
         self.lists(element, values, |shape, values, place| {
             for strip in shape.corners.split(|&corner| corner == RESTART) {
@@ -181,7 +181,7 @@ impl PlyContent {
         })
     }
 
-    /// Reads the lists of corners and hands each on in `corners`.
+    /// Reads the lists of corners and passes each on in `corners`.
     fn lists(
         &mut self,
         element: &Element,
@@ -235,7 +235,7 @@ impl PlyContent {
     }
 }
 
-/// Stands for the −1 between strips.
+/// Marks the −1 between strips.
 const RESTART: u32 = u32::MAX;
 
 fn outside(values: &Values, place: ElementProperty, corner: u32, vertices: usize) -> LoadError {
@@ -255,7 +255,7 @@ fn length_of(length: header::Scalar, place: ElementProperty, values: &mut Values
 }
 
 fn skip_all(element: &Element, values: &mut Values) -> Result<(), LoadError> {
-    // Elements without properties take no room, so their count says nothing.
+    // Elements without properties take no bytes, so their count proves nothing.
     if element.properties.is_empty() {
         return Ok(());
     }

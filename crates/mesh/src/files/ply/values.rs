@@ -5,21 +5,21 @@ use crate::files::LoadError;
 use crate::files::source::Reader;
 use crate::files::text::abridged;
 
-/// The numbers behind the header.
+/// The numbers after the header.
 pub(super) struct Values<'a> {
     reader: Reader<'a>,
     encoding: PlyEncoding,
-    /// The line of a text, how far it is read, and its number.
+    /// The current line of a text, the end of the last word read, and its number.
     buffer: Vec<u8>,
     at: usize,
     line: usize,
 }
 
-/// What a number belongs to, for errors.
+/// The element and property of a number, for errors.
 #[derive(Clone, Copy)]
 pub(super) struct ElementProperty<'p> {
     pub(super) element: &'p str,
-    /// From 0.
+    /// The element's number, from 0.
     pub(super) number: u64,
     pub(super) property: &'p str,
 }
@@ -79,7 +79,7 @@ impl<'a> Values<'a> {
         })
     }
 
-    /// The next bytes, the least significant first.
+    /// The next bytes, in little-endian order.
     fn array<const N: usize>(&mut self, place: ElementProperty, big: bool) -> Result<[u8; N], LoadError> {
         let mut bytes = [0; N];
         if self.reader.fill(&mut bytes)? < N {

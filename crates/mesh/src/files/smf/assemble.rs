@@ -1,4 +1,4 @@
-//! Meshes of what was read.
+//! Turns the statements of a file into meshes.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::files::LoadError;
 use crate::numbering::Numbering;
 use crate::{Mesh, Part};
 
-/// What values of attributes belong to, in order.
+/// The elements that an attribute's values belong to, in order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Binding {
     #[default]
@@ -25,7 +25,7 @@ pub(super) struct BoundValues<T> {
 }
 
 impl<T> BoundValues<T> {
-    /// Binds the values to come; those that there are keep their binding, so it must be the same.
+    /// Binds the values to come. Existing values keep their binding, so it must be the same; returns whether it is.
     pub(super) fn bind(&mut self, binding: Binding) -> bool {
         let fits = self.values.is_empty() || self.binding == binding;
         self.binding = if fits { binding } else { self.binding };
@@ -39,7 +39,7 @@ struct Group {
     triangle: usize,
 }
 
-/// What the file describes.
+/// The contents of the file.
 #[derive(Default)]
 pub(super) struct SmfContent {
     pub(super) positions: Vec<Vec3>,
@@ -79,7 +79,7 @@ impl SmfContent {
         self.indices.extend(corners);
     }
 
-    /// A part for each group that has triangles, and what was made up.
+    /// A part for each group that has triangles, and warnings of missing attributes that were filled in.
     pub(super) fn into_parts(mut self, path: &Path) -> Result<(Vec<Part>, Vec<String>), LoadError> {
         let mut warnings = Vec::new();
         self.warn_of_counts(path, &mut warnings);
@@ -161,7 +161,7 @@ impl SmfContent {
         }
     }
 
-    /// The mesh, and how many normals were made up.
+    /// The mesh, and how many normals were filled in.
     fn into_mesh(mut self) -> Result<(Mesh, usize), crate::MeshError> {
         let vertices = self.positions.len();
         let (mesh, report) = Mesh::from_parts_reported(
@@ -191,7 +191,7 @@ impl<T: Copy> BoundValues<T> {
         Some(values)
     }
 
-    /// The values of vertices: of the vertex that each comes from, or of the face of the corner that each is of.
+    /// The values of vertices: of each vertex's source, or of the face of each vertex's corner.
     fn picked(&self, sources: &[u32], corners: &[usize], face_of: impl Fn(usize) -> usize, missing: T) -> Self {
         let value = |i: usize| self.values.get(i).copied().unwrap_or(missing);
         let values = match self.binding {

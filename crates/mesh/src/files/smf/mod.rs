@@ -36,7 +36,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     Ok(Model { parts, warnings, ..Model::default() })
 }
 
-/// The largest vertex number of all faces, and where it stands.
+/// The largest vertex number of all faces, and its line.
 #[derive(Clone, Copy)]
 struct Furthest {
     /// As an index from 0.
@@ -49,7 +49,7 @@ struct Smf {
     shape: SmfContent,
     scopes: Scopes,
     furthest: Option<Furthest>,
-    /// The corners of the face that is being read, and their places.
+    /// The corners of the face being read, and their positions.
     corners: Vec<u32>,
     points: Vec<Vec3>,
     skipped: Skipped,
@@ -131,7 +131,7 @@ impl Smf {
         self.cut(statement)
     }
 
-    /// Cuts a face of many corners, whose vertices must be there to see how.
+    /// Cuts a face of more than three corners, whose vertices must be defined before it.
     fn cut(&mut self, statement: &Statement) -> Result<(), LoadError> {
         let Self { shape, corners, points, skipped, .. } = self;
         points.clear();
@@ -202,7 +202,7 @@ impl Smf {
         Err(statement.unexpected("the same binding as above for values of which there are some is"))
     }
 
-    /// Only the largest number has to be looked at.
+    /// Checks the largest number, which bounds the others.
     fn check_furthest(&self, path: &std::path::Path) -> Result<(), LoadError> {
         let vertices = self.shape.positions.len();
         match self.furthest {
@@ -212,7 +212,7 @@ impl Smf {
                 found: format!("the vertex number {number} in `f`"),
                 expected: match vertices {
                     0 => "a vertex that a `v` defines is".to_owned(),
-                    // Scopes may count from elsewhere; the count is that of the file all the same.
+                    // Scopes may count from elsewhere; the message counts in the file all the same.
                     _ => format!("one of the {vertices} vertices, counted from 1, is"),
                 },
             }),

@@ -1,11 +1,11 @@
-//! Scopes: how vertices are counted and where they are placed between `begin` and `end`.
+//! Scopes: the numbering and the transform of vertices between `begin` and `end`.
 
 use bevy_math::{DMat3, DMat4, DVec3, DVec4, Vec3};
 
 use crate::files::LoadError;
 use crate::files::text::{Skipped, Statement};
 
-/// The scopes that are open, each within the one before.
+/// The open scopes, innermost last.
 pub(super) struct Scopes {
     outer: Vec<Scope>,
     inner: Scope,
@@ -13,18 +13,18 @@ pub(super) struct Scopes {
 
 #[derive(Clone, Copy)]
 struct Scope {
-    /// How many vertices there were at its beginning: its own are counted from there.
+    /// The number of vertices at its beginning: its own are counted from there.
     first_vertex: i64,
     /// `set vertex_correction`: added to every vertex number.
     correction: i64,
-    /// Where its vertices are placed; `None` where they are left as they stand.
+    /// The transform of its vertices; `None` for the identity.
     transform: Option<Transform>,
 }
 
 #[derive(Clone, Copy)]
 struct Transform {
     world_from_scope: DMat4,
-    /// The inverse transpose of its linear part but for a positive factor.
+    /// The inverse transpose of its linear part, up to a positive factor.
     world_normal_from_scope: DMat3,
 }
 
@@ -76,7 +76,7 @@ impl Scopes {
         if !world_from_scope.is_finite() {
             return Err(statement.unexpected("a transform that stays in the range of f64 is"));
         }
-        // Cofactors, which are there for matrices without an inverse too.
+        // Cofactors, which exist for matrices without an inverse too.
         let m = DMat3::from_mat4(world_from_scope);
         let cofactors = DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
         let world_normal_from_scope = if m.determinant() < 0.0 { -cofactors } else { cofactors };
@@ -85,7 +85,7 @@ impl Scopes {
         Ok(())
     }
 
-    /// The index from 0 of a vertex number; `None` where it is none.
+    /// The index from 0 of a vertex number; `None` if it is out of range.
     pub(super) fn vertex(&self, number: i64) -> Option<u32> {
         if number < 0 {
             return None;
@@ -94,11 +94,11 @@ impl Scopes {
         if vertex < self.inner.first_vertex && self.inner.correction == 0 {
             return None;
         }
-        // What is beyond 32 bits is beyond all vertices.
+        // A number beyond 32 bits is beyond all vertices.
         (vertex >= 0).then(|| u32::try_from(vertex).unwrap_or(u32::MAX))
     }
 
-    /// Where a vertex stands.
+    /// A vertex in world space.
     pub(super) fn place(&self, p: Vec3, statement: &Statement) -> Result<Vec3, LoadError> {
         let Some(transform) = &self.inner.transform else {
             return Ok(p);
@@ -111,7 +111,7 @@ impl Scopes {
         Err(statement.unexpected("a vertex that its transform leaves in the range of f32 is"))
     }
 
-    /// Where a normal points; zero where the transform leaves it no direction.
+    /// A normal in world space; zero where the transform leaves it no direction.
     pub(super) fn turn(&self, n: Vec3) -> Vec3 {
         match &self.inner.transform {
             None => n,

@@ -1,4 +1,4 @@
-//! A file that is written whole or not at all.
+//! Files that are written whole or not at all.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// Why a model was not written. Nothing is left behind, and a file that was there before stays as it was.
+/// Why a model was not written. No partial file is left, and an existing file stays as it was.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// The extension names no format that is written.
+    /// The extension names no format that can be written.
     #[error("{}: the extension {extension:?} names no format that is written; smf, obj or glb is expected", path.display())]
     UnknownExtension {
         /// The file.
         path: PathBuf,
-        /// What follows the last dot of its name, in lower case; empty where there is none.
+        /// The text after the last dot of the name, in lower case; empty where there is none.
         extension: String,
     },
     /// Only GLB holds quantised meshes.
@@ -30,15 +30,15 @@ pub enum WriteError {
         /// The file.
         path: PathBuf,
     },
-    /// More than the format can count.
+    /// The model has more elements than the format can count.
     #[error("{}: {what}; at most {} are expected", path.display(), u32::MAX)]
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// What there is too much of, and how much.
+        /// The elements, and how many there are.
         what: String,
     },
-    /// A part stands where its vertices leave the range of single precision.
+    /// The vertices of a part leave the range of single precision in world space.
     #[error("{}: the vertices of part {part}, where they stand in the world, are not finite", path.display())]
     NotFinite {
         /// The file.
@@ -51,12 +51,12 @@ pub enum WriteError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
 }
 
-/// Writes a file beside its place and renames it.
+/// Writes a temporary file beside the target and renames it.
 pub(super) fn replace(
     path: &Path,
     content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,

@@ -57,7 +57,7 @@ pub(super) fn write(path: &Path, model: &Model, quantised: bool) -> Result<Vec<S
 struct Document {
     /// Whether vertices are integers of 16 bits.
     quantised: bool,
-    /// All that accessors look at; every array of it starts at a multiple of four bytes.
+    /// The binary chunk; every array in it starts at a multiple of four bytes.
     data: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
@@ -65,7 +65,7 @@ struct Document {
     nodes: Vec<Value>,
     lights: Vec<Value>,
     cameras: Vec<Value>,
-    /// The meshes that are written, by where their data lie and by material.
+    /// The meshes already written, by the address of their data and by material.
     written: HashMap<(*const Vec3, Option<usize>), usize>,
 }
 
@@ -81,7 +81,7 @@ impl Document {
         };
         let mut world_from_mesh = part.world_from_part;
         if self.quantised {
-            let steps = Grid::of(&part.mesh).mesh_from_steps();
+            let steps = Grid::for_mesh(&part.mesh).mesh_from_steps();
             world_from_mesh = (part.world_from_part.as_dmat4() * steps).as_mat4();
         }
         self.node(&part.name, world_from_mesh, "mesh", json!(mesh));
@@ -121,7 +121,7 @@ impl Document {
     }
 
     fn integers_of(&mut self, mesh: &Mesh) -> Map<String, Value> {
-        let grid = Grid::of(mesh);
+        let grid = Grid::for_mesh(mesh);
         let steps: Vec<[u16; 3]> = mesh.positions().iter().map(|p| grid.round(p.as_dvec3())).collect();
         let bound = |pick: fn(u16, u16) -> u16| {
             steps.iter().copied().reduce(|a, b| [0, 1, 2].map(|axis| pick(a[axis], b[axis]))).unwrap_or_default()
@@ -132,7 +132,7 @@ impl Document {
         self.accessors[positions]["max"] = json!(max);
         let mut attributes = Map::new();
         attributes.insert("POSITION".to_owned(), json!(positions));
-        // Bits of a SHORT are written as those of an UNSIGNED_SHORT.
+        // The bits of a SHORT are written as those of an UNSIGNED_SHORT.
         let direction = |n: [f32; 3], w: i16| [signed(n[0]), signed(n[1]), signed(n[2]), w].map(|x| x as u16);
         let normals = mesh.normals().iter().map(|n| direction(n.to_array(), 0));
         attributes.insert("NORMAL".to_owned(), json!(self.shorts(SHORT, "VEC3", normals, true)));
@@ -181,7 +181,7 @@ impl Document {
         accessor
     }
 
-    /// The corners of triangles: in 16 bits where those do and are asked for.
+    /// The corners of triangles, in 16 bits if that is asked for and suffices.
     fn indices(&mut self, indices: &[u32], vertices: usize) -> usize {
         let (target, count) = (ELEMENT_ARRAY_BUFFER, indices.len());
         if !self.quantised || vertices > usize::from(u16::MAX) {
@@ -190,7 +190,7 @@ impl Document {
         }
         let bytes = indices.iter().flat_map(|&index| (index as u16).to_le_bytes());
         let accessor = self.accessor(bytes, target, UNSIGNED_SHORT, "SCALAR", count);
-        // What comes after starts at a multiple of four bytes.
+        // The next array starts at a multiple of four bytes.
         self.data.resize(self.data.len().next_multiple_of(4), 0);
         accessor
     }
@@ -345,7 +345,7 @@ fn material(source: &SourceMaterial) -> Value {
     described
 }
 
-/// The nearest that glTF has: no metal, with the roughness r for which the exponent 2/r⁴ − 2 of a Blinn–Phong lobe is
+/// The nearest glTF material: no metal, with the roughness r for which the exponent 2/r⁴ − 2 of a Blinn–Phong lobe is
 /// the material's (Walter et al. 2007, "Microfacet models for refraction", α = r²).
 fn metallic_roughness(mtl: &MtlMaterial) -> MetallicRoughness {
     let [r, g, b] = mtl.kd.unwrap_or([0.8; 3]).map(|x| x.clamp(0.0, 1.0));

@@ -46,7 +46,7 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
         for (part, placed) in model.parts.iter().zip(&placed) {
             writeln!(file, "o {}", one_line(&part.name))?;
             if part.material != used {
-                // The format cannot go back to no material but by a name that is nowhere defined.
+                // The format returns to no material only by a name that is defined nowhere.
                 let name = part.material.and_then(|material| names.get(material)).map_or("none", String::as_str);
                 writeln!(file, "usemtl {name}")?;
                 used = part.material;
@@ -116,7 +116,7 @@ fn write_material(file: &mut impl Write, name: &str, source: &SourceMaterial) ->
     mtl.illum.map_or(Ok(()), |illum| writeln!(file, "illum {illum}"))
 }
 
-/// Names of the materials that a line can hold, none of them twice.
+/// Unique names of the materials, each on one line.
 fn unique_names(model: &Model) -> Vec<String> {
     let mut seen = HashSet::from(["none".to_owned()]);
     model
@@ -136,7 +136,7 @@ fn unique_names(model: &Model) -> Vec<String> {
         .collect()
 }
 
-/// A name as a line can hold it.
+/// A name on one line.
 fn one_line(name: &str) -> String {
     let flat: String = name.chars().map(|c| if c.is_control() || c == '\\' { ' ' } else { c }).collect();
     flat.trim_ascii().to_owned()

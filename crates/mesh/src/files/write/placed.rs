@@ -1,4 +1,4 @@
-//! What the text formats share: parts as they stand in the world.
+//! Shared by the text formats: parts in world space.
 
 use std::path::Path;
 
@@ -7,11 +7,11 @@ use bevy_math::{DMat3, Mat4, Vec3};
 use super::file::WriteError;
 use crate::{Model, Part};
 
-/// The vertices of a part where they stand in the world.
+/// The vertices of a part in world space.
 pub(super) struct Placed {
     pub(super) positions: Vec<Vec3>,
     pub(super) normals: Vec<Vec3>,
-    /// Whether triangles wind the other way round because the part is mirrored.
+    /// Whether triangles wind the opposite way because the part is mirrored.
     mirrored: bool,
 }
 
@@ -29,25 +29,25 @@ impl Placed {
         }
         let m = DMat3::from_mat4(world_from_part);
         let mirrored = m.determinant() < 0.0;
-        // The inverse transpose but for a factor, whose sign is set right.
+        // The inverse transpose up to a factor, whose sign is corrected.
         let cofactors = DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
         let sign = if mirrored { -1.0 } else { 1.0 };
         let turn = |n: &Vec3| (sign * (cofactors * n.as_dvec3())).try_normalize().unwrap_or(n.as_dvec3()).as_vec3();
         Ok(Self { normals: normals.iter().map(turn).collect(), positions, mirrored })
     }
 
-    /// The corners of a triangle, so that its front stays in front.
+    /// The corners of a triangle, swapped if mirrored so that its front stays in front.
     pub(super) fn triangle(&self, [a, b, c]: [u32; 3]) -> [u32; 3] {
         if self.mirrored { [a, c, b] } else { [a, b, c] }
     }
 }
 
-/// v upward, with all the digits that it takes to be turned again without loss.
+/// v upward, with all the digits needed to flip it back without loss.
 pub(super) fn upward(v: f32) -> f64 {
     1.0 - f64::from(v)
 }
 
-/// What SMF and OBJ cannot hold.
+/// Warnings about the contents that SMF and OBJ cannot hold.
 pub(super) fn lost_in_text(model: &Model) -> Vec<String> {
     let mut lost = Vec::new();
     let mut add = |count: usize, what: &str| {

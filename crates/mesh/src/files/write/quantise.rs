@@ -4,7 +4,7 @@ use bevy_math::{DMat4, DVec3};
 
 use crate::Mesh;
 
-/// The most that an integer without a sign holds.
+/// The largest value of an unsigned integer of 16 bits.
 const MOST: f64 = 65535.0;
 
 /// The grid that a mesh's positions are rounded to: the same step along all axes, so that normals stay as they are.
@@ -14,7 +14,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    pub(super) fn of(mesh: &Mesh) -> Self {
+    pub(super) fn for_mesh(mesh: &Mesh) -> Self {
         let bounds = mesh.bounds();
         let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
         let step = (max - min).max_element() / MOST;
@@ -22,7 +22,7 @@ impl Grid {
         Self { origin: min, step: step.max(f64::from(f32::MIN_POSITIVE)) }
     }
 
-    /// The numbers of a position's steps.
+    /// The steps of a position.
     pub(super) fn round(&self, p: DVec3) -> [u16; 3] {
         ((p - self.origin) / self.step).to_array().map(|steps| steps.round().clamp(0.0, MOST) as u16)
     }

@@ -140,7 +140,7 @@ const PIXEL: f64 = 1.5e-4;
 /// The means of many pixels are closer.
 const MEAN: f64 = 4e-5;
 
-/// The rows of which a method gives another figure, as text.
+/// The rows for which a method gives another figure, as text.
 fn deviations(method: impl Fn(f64) -> Method) -> Vec<String> {
     let deviation = |(name, pixels_per_degree, mean, median, pixels): &Row| {
         let pictures = pair(name).map(|Bytes { size: [width, height], pixels }| {
@@ -210,16 +210,16 @@ fn other_filters_are_found() {
     }
 }
 
-/// A seam would show if a band lacked a row that has part in its values.
+/// A seam would appear if a band lacked a row that affects its values.
 #[test]
-fn bands_give_what_the_whole_gives() {
+fn bands_give_the_same_values_as_the_whole() {
     let [width, height] = [23, 97];
     let image = |seed| {
         let pixels = noise([width, height], seed).pixels;
         Image::new(width, height, pixels.iter().map(|pixel| pixel.map(|byte| f64::from(byte) / 255.0)).collect())
     };
     let (a, b) = (image(1), image(2));
-    let bands = BandPairs::of(&a, &b).expect("one size");
+    let bands = BandPairs::new(&a, &b).expect("one size");
     let whole = map_by(&bands, Encoding::Srgb, width * height);
     for rows in [1, 7, 48] {
         assert!(map_by(&bands, Encoding::Srgb, width * rows) == whole, "bands of {rows} rows");

@@ -1,7 +1,7 @@
-//! A picture that was divided by its largest channel, judged by the one number that it was divided by.
+//! Judges a picture that was divided by its largest channel, by the one number that it was divided by.
 //!
-//! Where the brightest pixel lies on an edge, two drawers that are both right divide by different numbers, and then
-//! differ everywhere. Were each pixel allowed any of those numbers, a wrong one would pass too.
+//! If the brightest pixel lies on an edge, two right renderers divide by different numbers, and then differ everywhere.
+//! If each pixel were allowed any of those numbers, a wrong one would pass too.
 
 use super::{Bars, Measure, Ruler, SizeMismatch, Verdict, judge_with, same_size};
 use crate::Image;
@@ -9,7 +9,7 @@ use crate::oracle::Possible;
 use halfway_lighting::Samples;
 use rayon::prelude::*;
 
-/// [`judge_with`], with what is expected divided as `actual` was. What `possible` says has not been divided.
+/// [`judge_with`], with the expected picture divided as `actual` was. The colours of `possible` are not divided.
 pub(super) fn judge_divided(
     possible: impl Fn(u32, u32) -> Possible + Sync,
     samples: Samples,
@@ -23,7 +23,7 @@ pub(super) fn judge_divided(
     };
     let possible = |x, y| possible(x, y).mapped(|channel| channel / divisor);
     let factor = divided_like(&possible, expected, divisor.recip(), actual, bars);
-    // A factor that was found is known to some 10⁻⁴, which takes a hundredth of the values across the middle of a step.
+    // An estimated factor is known to some 10⁻⁴, which takes a hundredth of the values across the middle of a step.
     let equal = if factor.to_bits() == 1.0f64.to_bits() { bars.equal } else { bars.equal - 0.05 };
     let bars = Bars { equal, ..bars };
     let scaled = expected.clone().scaled(factor);
@@ -31,9 +31,8 @@ pub(super) fn judge_divided(
     judge_with(possible, samples, &scaled, actual, bars)
 }
 
-/// What the expected picture is multiplied by to be divided like the actual one; 1 where no picture that may be shown
-/// would have been divided so. `one` is the intensity 1, below which nothing is divided, as the expected picture shows
-/// it.
+/// The factor for the expected picture to be divided like the actual one; 1 if no picture that may be shown would have
+/// been divided so. `one` is the intensity 1, below which nothing is divided, in the expected picture's units.
 fn divided_like(
     possible: &(impl Fn(u32, u32) -> Possible + Sync),
     expected: &Image,
@@ -43,7 +42,7 @@ fn divided_like(
 ) -> f64 {
     let bright = bright(expected, actual, bars);
     let ruler = Ruler::new(expected, bars);
-    // Rounding to bytes blurs the factor: where 1 explains them, it is 1.
+    // Rounding to bytes blurs the factor: if 1 explains the values, it is 1.
     let is_explained = |(a, b): &&(f64, f64)| ruler.error(*b, *a) <= bars.most + ruler.allowed;
     let explained = bright.iter().filter(is_explained).count() as f64;
     let factor = factor_between(bright.clone());
@@ -53,14 +52,14 @@ fn divided_like(
     {
         return 1.0;
     }
-    // The actual divisor as a part of the expected one.
+    // The actual divisor relative to the expected one.
     let found = factor.recip();
     let off = within(bars);
     let width = expected.dimensions().0.max(1) as usize;
     if (found - 1.0).abs() <= off {
         return factor;
     }
-    // What the largest channel of a pixel may be: from and to, one for each colour that it may show.
+    // The possible range of the largest channel of a pixel: from and to, one for each colour that it may show.
     let brightness = |i: usize| {
         let possible = possible((i % width) as u32, (i / width) as u32);
         let mut all = vec![[largest(expected.pixels()[i]); 2]];
@@ -70,7 +69,7 @@ fn divided_like(
         all
     };
     let pixels = 0..expected.pixels().len();
-    // Some pixel shows it, or nothing exceeds 1, and no pixel cannot but exceed it.
+    // Some pixel shows it, or nothing exceeds 1, and no pixel necessarily exceeds it.
     let [low, high] = [found * (1.0 - off), found * (1.0 + off)];
     let is_shown =
         || pixels.clone().into_par_iter().any(|i| brightness(i).iter().any(|[a, b]| *a <= high && *b >= low));
@@ -80,14 +79,14 @@ fn divided_like(
     if ((low..=high).contains(&one) || is_shown()) && !is_exceeded() { factor } else { 1.0 }
 }
 
-/// The share of bright channels that an error of the bars explains.
+/// The fraction of bright channels that an error of the bars explains.
 const MOST_EXPLAINED: f64 = 0.98;
-/// Of darker channels the quotient says little, as a share of the expected picture's brightness.
+/// Darker channels, relative to the expected picture's brightness, tell little by their quotient.
 const DARKEST: f64 = 0.25;
-/// Quotients that are farther from the median are of other things, as a share.
+/// Quotients that are farther from the median, relatively, belong to other surfaces.
 const STRAY: f64 = 0.02;
 
-/// How far a divisor may be off, as a share: what the bars allow the brightest channel.
+/// The relative error of a divisor: the error that the bars allow the brightest channel.
 fn within(bars: Bars) -> f64 {
     match bars.measure {
         Measure::Range => bars.worst + bars.steps / 255.0,
@@ -99,8 +98,8 @@ fn largest(pixel: [f64; 3]) -> f64 {
     pixel.into_iter().fold(0.0, f64::max)
 }
 
-/// Bright channels, as they are expected and as they are: each expected value once, as a large patch of one color is
-/// rounded alike everywhere; and none that was clamped, where there are others.
+/// Bright channels, expected and actual: each expected value once, as a large patch of one color is rounded alike
+/// everywhere; and none that was clamped, if there are others.
 fn bright(expected: &Image, actual: &Image, bars: Bars) -> Vec<(f64, f64)> {
     let least = DARKEST * expected.largest();
     let clamped = if matches!(bars.measure, Measure::Steps(_)) { 1.0 } else { f64::INFINITY };
@@ -115,8 +114,8 @@ fn bright(expected: &Image, actual: &Image, bars: Bars) -> Vec<(f64, f64)> {
     bright
 }
 
-/// The factor by which one picture is brighter than another where most of both is alike: the median quotient of bright
-/// channels, and the least squares of what lies near it. 1 where nothing is bright.
+/// The ratio of the brightness of two pictures that are mostly alike: the median quotient of bright channels, refined
+/// by least squares over the values near it. 1 if nothing is bright.
 fn factor_between(mut bright: Vec<(f64, f64)>) -> f64 {
     bright.sort_unstable_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)));
     let Some(median) = bright.get(bright.len() / 2).map(|(a, b)| b / a) else { return 1.0 };

@@ -1,4 +1,4 @@
-//! The judgement of single pixels, with surroundings made up for them.
+//! The judgement of single pixels, with made-up surroundings.
 
 use super::*;
 use std::sync::atomic::AtomicUsize;
@@ -37,7 +37,7 @@ fn nothing_is_asked(x: u32, y: u32) -> Possible {
 }
 
 #[test]
-fn what_is_within_the_bar_is_not_asked_about() {
+fn pixels_within_the_bar_are_not_asked_about() {
     let slightly_off = Image::new(SIZE, SIZE, ramp().pixels().iter().map(|p| p.map(|i| i + 1.5e-4)).collect());
     let verdict = float(nothing_is_asked, &slightly_off);
     assert!(verdict.is_within(), "{verdict}");
@@ -45,9 +45,9 @@ fn what_is_within_the_bar_is_not_asked_about() {
     assert_eq!((verdict.edges, verdict.counted, verdict.equal), (0.0, 1.0, 0.0));
 }
 
-/// What is asked after the first that is wrong is what other threads are at.
+/// After the first wrong pixel, only those that other threads are working on are asked.
 #[test]
-fn of_a_picture_that_is_wrong_few_pixels_are_asked() {
+fn few_pixels_are_asked_once_one_is_wrong() {
     let asked = AtomicUsize::new(0);
     let surroundings = |x, y| {
         asked.fetch_add(1, Ordering::Relaxed);
@@ -63,7 +63,7 @@ fn of_a_picture_that_is_wrong_few_pixels_are_asked() {
     assert!(!is_within && of_all > 1000, "{of_all}");
     let (is_within, few) = judged(&all_wrong, Bars::FLOAT.until_wrong());
     assert!(!is_within && few <= rayon::current_num_threads(), "{few}");
-    // What is over the bar and right is no reason to stop; the one wrong pixel behind it is found.
+    // A right pixel over the bar is no reason to stop; the one wrong pixel behind it is found.
     let mut changes = vec![((3, 5), [0.2; 3]), ((30, 5), [0.7; 3])];
     assert_eq!(judged(&with(&ramp(), &changes), Bars::FLOAT.until_wrong()), (true, 2));
     changes.push(((10, 39), [0.45; 3]));
@@ -71,14 +71,14 @@ fn of_a_picture_that_is_wrong_few_pixels_are_asked() {
 }
 
 #[test]
-fn either_side_of_an_edge_is_right_and_nothing_else() {
+fn only_the_two_sides_of_an_edge_are_right() {
     let found = |value: f64| with(&ramp(), &[((3, 5), [value; 3])]);
     let both_sides = || pixels(true, [[0.2, 0.25], [0.7, 0.7]]);
     for value in [0.2, 0.22, 0.25, 0.251, 0.7, 0.701] {
         let verdict = float(both_sides(), &found(value));
         assert!(verdict.is_within() && verdict.edges > 0.0, "{value}: {verdict}");
     }
-    // What lies between the sides is on neither.
+    // Colours between the sides belong to neither.
     for (value, nearest) in [(0.8, 0.7), (0.45, 0.25)] {
         let verdict = float(both_sides(), &found(value));
         assert!(!verdict.is_within() && verdict.edges == 0.0, "{verdict}");
@@ -88,7 +88,7 @@ fn either_side_of_an_edge_is_right_and_nothing_else() {
 }
 
 #[test]
-fn at_an_edge_the_middle_is_right_too_by_its_own_bar() {
+fn the_middle_of_an_edge_has_its_own_bar() {
     let middle = ramp().pixel(3, 5)[0];
     for (off, is_right) in [(1e-3, true), (3e-3, false)] {
         let verdict = float(pixels(true, [[0.7, 0.7]]), &with(&ramp(), &[((3, 5), [middle + off; 3])]));
@@ -97,7 +97,7 @@ fn at_an_edge_the_middle_is_right_too_by_its_own_bar() {
 }
 
 #[test]
-fn a_steep_slope_has_many_right_values_and_a_gentle_one_has_one() {
+fn steep_slopes_have_several_right_values() {
     let found = with(&ramp(), &[((3, 5), [0.09; 3])]);
     for (is_edge, low, within) in [(false, 0.045, true), (false, 0.065, false), (true, 0.065, true)] {
         let verdict = float(pixels(is_edge, [[low, 0.09]]), &found);
@@ -106,7 +106,7 @@ fn a_steep_slope_has_many_right_values_and_a_gentle_one_has_one() {
 }
 
 #[test]
-fn of_four_samples_the_centre_alone_is_not_right_beside_an_edge() {
+fn with_four_samples_the_centre_alone_is_wrong_at_an_edge() {
     let judged = |samples: Samples, picture: &Image| {
         judge_with(pixels(true, [[0.4, 0.4]]), samples, &ramp(), picture, Bars::FLOAT).expect("one size")
     };
@@ -116,7 +116,7 @@ fn of_four_samples_the_centre_alone_is_not_right_beside_an_edge() {
 
 #[test]
 fn no_share_of_wrong_pixels_is_excused() {
-    // All but one are on edges, and right; the judge says so, and still finds the other.
+    // All but one are on edges, and right; the verdict counts them, and still finds the other.
     let all = Image::new(SIZE, SIZE, vec![[1.0; 3]; (SIZE * SIZE) as usize]);
     let verdict = float(pixels(true, [[1.0, 1.0]]), &all);
     assert!(verdict.is_within() && verdict.edges > 0.9, "{verdict}");
@@ -135,7 +135,7 @@ fn bad_numbers_are_never_within() {
         assert_eq!((verdict.bad, verdict.first_bad.map(|(at, _)| at)), (1, Some((7, 2))));
         assert!(verdict.to_string().contains("(7, 2)"), "{verdict}");
     }
-    // An oracle that knows no value has no picture to judge by.
+    // An oracle with NaN gives no picture to judge by.
     let unknown = with(&ramp(), &[((7, 2), [f64::NAN; 3])]);
     let verdict =
         judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, &unknown, &ramp(), Bars::FLOAT).expect("one size");
@@ -162,7 +162,7 @@ fn bytes_may_be_one_step_off_on_a_hundredth() {
 }
 
 #[test]
-fn right_background_does_not_flatter() {
+fn right_background_does_not_improve_the_figures() {
     let covered: Vec<bool> = (0..SIZE * SIZE).map(|i| i % SIZE < 4).collect();
     let expected = ramp().with_coverage(covered);
     // A wrong pixel of the object, and a right and a wrong one of the background.
@@ -175,7 +175,7 @@ fn right_background_does_not_flatter() {
 }
 
 #[test]
-fn pictures_of_one_color_are_judged_by_their_brightness() {
+fn uniform_pictures_are_judged_by_their_brightness() {
     let one = |value: f64| Image::new(2, 2, vec![[value; 3]; 4]);
     for (expected, off, relative) in [(0.5, 0.5005, 1e-3), (0.0, 1e-3, 1e-3)] {
         let verdict = judge_with(pixels(false, [[0.0, 0.0]]), Samples::One, &one(expected), &one(off), Bars::FLOAT)

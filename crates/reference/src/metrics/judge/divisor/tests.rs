@@ -1,4 +1,4 @@
-//! Divisors that are right and wrong, with surroundings made up for them.
+//! Divisors that are right and wrong, with made-up surroundings.
 
 use super::*;
 use crate::metrics::judge::judge_with;
@@ -19,7 +19,7 @@ fn undivided(seed: f64, brightest: f64) -> Image {
 
 const BRIGHT: (u32, u32) = (60, 70);
 
-/// As a picture of bytes, or of floats, holds it.
+/// The picture as bytes, or floats, store it.
 fn written(image: &Image, bars: Bars) -> Image {
     match bars.measure {
         Measure::Range => Image::from_float(&image.to_float()),
@@ -31,7 +31,7 @@ fn written(image: &Image, bars: Bars) -> Image {
 
 const ALL: [Bars; 3] = [Bars::FLOAT, Bars::bytes(Encoding::Raw), Bars::bytes(Encoding::Srgb)];
 
-/// One colour everywhere, but that the bright pixel may show `dim` instead.
+/// One colour everywhere, except that the bright pixel may show `dim` instead.
 fn surroundings(whole: &Image, dim: Option<f64>) -> impl Fn(u32, u32) -> Possible + Sync {
     let whole = whole.clone();
     move |x, y| {
@@ -47,11 +47,11 @@ fn verdict(whole: &Image, divisor: f64, dim: Option<f64>, actual: &Image, bars: 
     judge_divided(surroundings(whole, dim), Samples::One, &expected, actual, bars).expect("one size")
 }
 
-/// Off by so much, and whether that is right.
+/// Factors of the divisor, and whether they are right.
 const OFF: [(f64, bool); 3] = [(1.0, true), (1.03, false), (0.97, false)];
 
 #[test]
-fn the_right_divisor_passes_and_one_that_is_3_percent_off_is_found() {
+fn a_divisor_that_is_3_percent_off_is_found() {
     for case in 0..24 {
         let (seed, brightest) = (0.25 * f64::from(case), 1.04 * 1.18f64.powi(case));
         let whole = undivided(seed, brightest);
@@ -63,9 +63,9 @@ fn the_right_divisor_passes_and_one_that_is_3_percent_off_is_found() {
     }
 }
 
-/// The brightest pixel lies on an edge: shown and not shown it gives divisors that are both right, and no others are.
+/// The brightest pixel lies on an edge: with and without it, the divisors are both right, and no others are.
 #[test]
-fn on_an_edge_two_divisors_are_right_and_no_third() {
+fn on_an_edge_exactly_two_divisors_are_right() {
     for case in 0..24 {
         let (seed, brightest) = (0.25 * f64::from(case), 1.2 * 1.18f64.powi(case));
         // The rest of the picture reaches 0.8 of the brightest.

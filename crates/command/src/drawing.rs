@@ -1,4 +1,4 @@
-//! The options about how a scene is drawn.
+//! The options for drawing a scene.
 
 use std::path::PathBuf;
 
@@ -10,9 +10,9 @@ use halfway::record::parse_size;
 use crate::adapters::AdapterArgs;
 use crate::tolerance::ToleranceArgs;
 
-/// How the scene is drawn; what is given here wins over the scene file.
+/// How the scene is drawn; options override the scene file.
 #[derive(Args, Clone, Debug)]
-pub(crate) struct LookArgs {
+pub(crate) struct DrawingArgs {
     /// A scene file (.json) or a model (.smf, .obj, .gltf, .glb, .ply, .stl)
     #[arg(value_name = "SCENE|MODEL")]
     pub(crate) input: PathBuf,
@@ -25,7 +25,7 @@ pub(crate) struct LookArgs {
     /// Coverage samples a pixel: 1, or 4 for smooth edges [default: the scene's; 1 for a model]
     #[arg(long, value_parser = one_of(&SAMPLES))]
     pub(crate) samples: Option<u32>,
-    /// What becomes of intensities above 1: clamp, renormalise, reinhard or aces; renormalise with the share of the
+    /// The treatment of intensities above 1: clamp, renormalise, reinhard or aces; renormalise with the share of the
     /// last frame's divisor that stays, reinhard with the intensity that becomes 1 [default: the scene's; clamp for a
     /// model]
     #[arg(long, value_name = "clamp|renormalise[=SHARE]|reinhard[=WHITE]|aces", value_parser = parse_intensity)]
@@ -40,12 +40,12 @@ pub(crate) struct LookArgs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum GivenShading {
     Known(Shading),
-    /// `auto`, which once was a shading.
+    /// `auto`, a former shading.
     Retired,
 }
 
-impl LookArgs {
-    /// The shading that is asked for. A warning is printed about one that is no longer there.
+impl DrawingArgs {
+    /// The chosen shading. Prints a warning about a former one.
     pub(crate) fn shading(&self) -> Option<Shading> {
         self.shading.map(|given| match given {
             GivenShading::Known(shading) => shading,
@@ -65,7 +65,7 @@ pub(crate) struct SizeArgs {
     pub(crate) size: Option<UVec2>,
 }
 
-/// Values of an option: what is typed, what the help says, and what it means. Those without help are not listed.
+/// Values of an option: the text on the command line, its help, and its meaning. Those without help are not listed.
 type Values<T, const N: usize> = [(&'static str, &'static str, T); N];
 
 const SHADINGS: Values<GivenShading, 4> = [
@@ -118,7 +118,7 @@ mod tests {
     #[derive(Parser)]
     struct Line {
         #[command(flatten)]
-        look: LookArgs,
+        look: DrawingArgs,
     }
 
     #[test]
