@@ -30,6 +30,7 @@
 //!   [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
+//! - [`lights`]: the kinds of light, a file each: component, maths, bound, record, WGSL and fields.
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`record`]: lights, materials and instances as whatever draws reads them.
@@ -56,6 +57,7 @@
 // Powers and the functions of angles only by `equations::Transcendental`: see clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod ambient;
 pub mod bounds;
 mod camera;
 pub mod equations;
@@ -64,7 +66,7 @@ mod frequency;
 pub mod homogeneous;
 mod intensity;
 mod invalid;
-mod light;
+pub mod lights;
 mod matched;
 mod material;
 mod place;
@@ -78,15 +80,16 @@ mod tolerance;
 mod vertex_colors;
 mod visibility;
 
+pub use ambient::GlobalAmbient;
 pub use camera::{Camera, Encoding, Samples};
 pub use field::{Described, Field, FieldPlace, FieldValue};
 pub use frequency::Frequency;
 pub use intensity::Intensity;
 pub use invalid::{Fields, InvalidValue, Problem};
-pub use light::{Attenuation, Cone, DirectionalLight, GlobalAmbient, PointLight, SpotLight};
+pub use lights::{Attenuation, Cone, DirectionalLight, LightComponent, PointLight, SpotLight};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
-pub use place::{light_direction, light_position, rotation_along};
+pub use place::{light_direction, light_position, light_up, rotation_along};
 pub use plugin::LightingPlugin;
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};

@@ -8,7 +8,7 @@ use halfway_lighting::homogeneous::{LightPlace, from_homogeneous};
 use halfway_lighting::{Cone, DirectionalLight, SpotLight, rotation_along};
 
 use crate::light::{ConeEntry, LightEntry, LightKind};
-use crate::light_component::LightComponent;
+use halfway_lighting::LightComponent;
 
 /// The component of a light and its transform in the frame it is attached to. The light is one that validation passed.
 pub(crate) fn place(entry: &LightEntry) -> (LightComponent, Transform) {

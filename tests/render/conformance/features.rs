@@ -103,13 +103,13 @@ fn materials_and_lights() -> Vec<(&'static str, Scene)> {
         (
             "one colour for diffuse and specular",
             with(|scene| {
-                of_light(scene, PointLight::from_color(LinearRgba::rgb(0.9, 0.7, 0.8)));
+                of_light(scene, PointLight::new(LinearRgba::rgb(0.9, 0.7, 0.8)));
             }),
         ),
         (
             "brighter than 1",
             with(|scene| {
-                of_light(scene, PointLight::from_color(LinearRgba::rgb(9.0, 4.0, 2.0)));
+                of_light(scene, PointLight::new(LinearRgba::rgb(9.0, 4.0, 2.0)));
             }),
         ),
         ("two lights of each kind", lights(6)),

@@ -73,7 +73,7 @@ mod tolerance;
 mod tree;
 
 pub use patch::{NormalCone, Patch};
-pub use receiver::{MARGIN, Receiver, TermBounds};
+pub use receiver::{LitTerms, MARGIN, Receiver, TermBounds};
 pub use select::Selected;
 pub use tolerance::{STEP, linear_tolerance};
 pub use tree::LightTree;

@@ -44,7 +44,7 @@ fn everything_this_crate_builds_is_valid() {
     PointLight::white().validate().unwrap();
     SpotLight::white(0.0).validate().unwrap();
     SpotLight { cone: Cone::NONE, ..Default::default() }.validate().unwrap();
-    DirectionalLight::from_color(color).validate().unwrap();
+    DirectionalLight::new(color).validate().unwrap();
     GlobalAmbient::default().validate().unwrap();
     Attenuation::NONE.validate().unwrap();
     Attenuation::INVERSE_SQUARE.validate().unwrap();

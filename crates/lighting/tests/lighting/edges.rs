@@ -4,8 +4,8 @@ use core::f32::consts::FRAC_PI_2;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::{
-    Coefficients, ConeTerms, Eye, Light, Place, ShadedPoint, interpolated_normal, normal_matrix, shade,
-    transform_normal,
+    Coefficients, Colors, ConeTerms, Directional, Eye, Light, Point, ShadedPoint, Spot, interpolated_normal,
+    normal_matrix, shade, transform_normal,
 };
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight};
 
@@ -161,23 +161,28 @@ fn view_in_f32(view: &Eye<f64>) -> Eye<f32> {
 }
 
 fn light_in_f32(light: &Light<f64>) -> Light<f32> {
-    Light {
-        place: match light.place {
-            Place::Point(p) => Place::Point(to_f32(p)),
-            Place::Directional(l) => Place::Directional(to_f32(l)),
-        },
-        la: to_f32(light.la),
-        ld: to_f32(light.ld),
-        ls: to_f32(light.ls),
-        attenuation: to_f32(light.attenuation),
-        range: light.range.map(|x| x as f32),
-        cone: light.cone.map(|cone| ConeTerms {
-            direction: to_f32(cone.direction),
-            cos_cutoff: cone.cos_cutoff as f32,
-            cos_inner: cone.cos_inner.map(|x| x as f32),
-            exponent: cone.exponent as f32,
+    let colors = |from: Colors<f64>| Colors { la: to_f32(from.la), ld: to_f32(from.ld), ls: to_f32(from.ls) };
+    let point = |from: Point<f64>| Point {
+        position: to_f32(from.position),
+        colors: colors(from.colors),
+        attenuation: to_f32(from.attenuation),
+        range: from.range.map(|x| x as f32),
+        attenuate_ambient: from.attenuate_ambient,
+    };
+    match *light {
+        Light::Directional(Directional { toward, colors: from }) => {
+            Light::Directional(Directional { toward: to_f32(toward), colors: colors(from) })
+        }
+        Light::Point(from) => Light::Point(point(from)),
+        Light::Spot(Spot { point: from, cone }) => Light::Spot(Spot {
+            point: point(from),
+            cone: ConeTerms {
+                direction: to_f32(cone.direction),
+                cos_cutoff: cone.cos_cutoff as f32,
+                cos_inner: cone.cos_inner.map(|x| x as f32),
+                exponent: cone.exponent as f32,
+            },
         }),
-        attenuate_ambient: light.attenuate_ambient,
     }
 }
 

@@ -7,7 +7,8 @@ use crate::width::{VectorWidth, with_vectors};
 use fastrand::Rng;
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
-    self, Coefficients, ConeTerms, Eye, Light, Place, ShadedPoint, face_forward, vector::normalize,
+    self, Coefficients, Colors, ConeTerms, Directional, Eye, Light, Point, ShadedPoint, Spot, face_forward,
+    vector::normalize,
 };
 
 /// One lane's input.
@@ -20,13 +21,6 @@ struct Case {
     exponent: f32,
     reflectance: Reflectance,
     local_viewer: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
-    Directional,
-    Point,
-    Spot,
 }
 
 fn within(random: &mut Rng, low: f32, high: f32) -> f32 {
@@ -97,22 +91,26 @@ fn expected(case: &Case) -> [f64; 3] {
     let f = |v: [f32; 3]| v.map(f64::from);
     let light = &case.light;
     let [fade, offset] = [light.inner_scale, light.inner_offset].map(f64::from);
-    let cone = (case.kind == Kind::Spot).then(|| ConeTerms {
-        direction: f(light.direction),
-        cos_cutoff: f64::from(light.cos_cutoff),
-        cos_inner: (fade > 0.0).then(|| (1.0 - offset) / fade),
-        exponent: f64::from(light.exponent),
-    });
-    let directional = case.kind == Kind::Directional;
-    let source = Light {
-        place: if directional { Place::Directional(f(light.position)) } else { Place::Point(f(light.position)) },
-        la: f(light.ambient),
-        ld: f(light.diffuse),
-        ls: f(light.specular),
+    let colors = Colors { la: f(light.ambient), ld: f(light.diffuse), ls: f(light.specular) };
+    let point = Point {
+        position: f(light.position),
+        colors,
         attenuation: f([light.constant, light.linear, light.quadratic]),
         range: (light.inverse_range > 0.0).then(|| 1.0 / f64::from(light.inverse_range)),
-        cone,
         attenuate_ambient: true,
+    };
+    let source = match case.kind {
+        Kind::Directional => Light::Directional(Directional { toward: f(light.position), colors }),
+        Kind::Point => Light::Point(point),
+        Kind::Spot => Light::Spot(Spot {
+            point,
+            cone: ConeTerms {
+                direction: f(light.direction),
+                cos_cutoff: f64::from(light.cos_cutoff),
+                cos_inner: (fade > 0.0).then(|| (1.0 - offset) / fade),
+                exponent: f64::from(light.exponent),
+            },
+        }),
     };
     let material = Coefficients {
         ka: f(SIDE.ambient),
@@ -131,10 +129,10 @@ fn shaded<S: Simd>(simd: S, case: &Case) -> [[f32; MOST_LANES]; 3] {
     let (p, n) = (splat3(simd, case.p), splat3(simd, case.n));
     let points = Points::new(simd, p, n, to_viewer(simd, p, n, case.local_viewer));
     let gloss = Gloss::new(case.reflectance, case.exponent);
-    let counts = [Kind::Directional, Kind::Point, Kind::Spot].map(|kind| u32::from(kind == case.kind));
-    let lights = SurfaceLights { both: LightRange { counts, start: 0 }, ..SurfaceLights::default() };
+    let light = LightRecord { kind: case.kind as u32, ..case.light };
+    let lights = SurfaceLights { both: LightRange { start: 0, count: 1 }, ..SurfaceLights::default() };
     let both = ShadedTerms { diffuse: true, specular: true };
-    let terms = gathered(simd, (&[case.light], &[0]), &lights, &points, gloss, both);
+    let terms = gathered(simd, (&[light], &[0]), &lights, &points, gloss, both);
     let color = reflected(simd, &terms, &SIDE);
     let mut lanes = [[0.0; MOST_LANES]; 3];
     for c in 0..3 {

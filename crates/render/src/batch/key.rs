@@ -262,13 +262,14 @@ impl DrawKey {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use halfway_lighting::lights::{Kind, KindSet};
     use std::collections::HashSet;
 
     /// A draw under one point light, with both terms at the fragments.
     pub(crate) fn key() -> DrawKey {
         DrawKey {
             blend: false,
-            lists: Lists::Counted([0, 1, 0]),
+            lists: Lists::Counted(1, KindSet::EMPTY.with(Kind::Point)),
             terms: Terms::both(Frequency::Fragment),
             per_instance: false,
             blinn_phong: true,

@@ -6,8 +6,9 @@ use bevy_color::LinearRgba;
 use halfway_lighting::bounds::{NormalCone, Patch, Receiver, TermBounds};
 use halfway_lighting::equations::vector::{add, cross, dot, length, normalize, scale, sub};
 use halfway_lighting::equations::{
-    Coefficients, Eye, Light, LightTerms, Place, Real, ShadedPoint, incidence, light_terms, view_vector,
+    Coefficients, Eye, Light, LightTerms, Real, ShadedPoint, Spot, incidence, light_terms, view_vector,
 };
+use halfway_lighting::lights::LightSource;
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Faces, Material, PointLight, Reflectance, SpotLight};
 use proptest::prelude::*;
 
@@ -87,8 +88,12 @@ impl Scene {
         let center = self.center.map(f64::from);
         // Inside the sphere also after rounding.
         let radius = f64::from(self.radius) * (1.0 - 1e-9);
-        let target = match (light.place, self.view()) {
-            (Place::Point(light), _) if u[0] < 0.35 => normalize(sub(light, center)),
+        let position = match *light {
+            Light::Directional(_) => None,
+            Light::Point(point) | Light::Spot(Spot { point, .. }) => Some(point.position),
+        };
+        let target = match (position, self.view()) {
+            (Some(light), _) if u[0] < 0.35 => normalize(sub(light, center)),
             (_, Eye::Local(eye)) if u[0] < 0.5 => normalize(sub(eye, center)),
             _ => None,
         };
@@ -116,7 +121,7 @@ impl Scene {
             Faces::Both => [1.0, -1.0][usize::from(u[2] < 0.5)],
         };
         let probe = ShadedPoint { position, normal: free };
-        let (l, v) = (incidence(&probe, light).l, view_vector(&probe, &self.view()));
+        let (l, v) = (incidence(&probe, light).expect("a direction").l, view_vector(&probe, &self.view()));
         let wish = match u[0] {
             u if u < 0.25 => l,
             u if u < 0.6 => normalize(add(l, v)).unwrap_or(l),
@@ -152,7 +157,7 @@ pub(crate) fn direction(a: f64, b: f64) -> [f64; 3] {
 /// What exceeds its bound, in words, or `None`. `f32` counts numbers below its smallest normal one as 0.
 pub(crate) fn exceeds<T: Real>(terms: &LightTerms<f64>, bounds: &TermBounds<T>, light: &Light<f64>) -> Option<String> {
     // An ambient that is not attenuated is no part of the bounds.
-    let ambient = if light.attenuate_ambient { terms.ambient } else { [0.0; 3] };
+    let ambient = if light.steady_ambient() == [0.0; 3] { terms.ambient } else { [0.0; 3] };
     let rows = [
         ("ambient", ambient, bounds.ambient),
         ("diffuse", terms.diffuse, bounds.diffuse),
