@@ -4,8 +4,7 @@ use core::f32::consts::FRAC_PI_2;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::{
-    Coefficients, Colors, ConeTerms, Directional, Eye, Light, Point, ShadedPoint, Spot, interpolated_normal,
-    normal_matrix, shade, transform_normal,
+    Coefficients, Eye, Light, ShadedPoint, interpolated_normal, normal_matrix, shade, transform_normal,
 };
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight};
 
@@ -141,7 +140,7 @@ fn every_edge_has_its_value() {
         for &reflectance in reflectances {
             let double = shade(&surface, &Coefficients::from(&material), &[light], [0.0; 3], &view, reflectance);
             close3(double, [expected; 3], expected * 1e-14, &format!("{name}, {reflectance:?}"));
-            let (surface, light, view) = (surface_in_f32(&surface), light_in_f32(&light), view_in_f32(&view));
+            let (surface, light, view) = (surface_in_f32(&surface), light.cast(), view_in_f32(&view));
             let single = shade(&surface, &Coefficients::from(&material), &[light], [0.0; 3], &view, reflectance);
             // A handful of roundings; the cosine of 80° went through f32.
             close3(to_f64(single), [expected; 3], expected * 1e-6, &format!("{name}, {reflectance:?}, f32"));
@@ -157,32 +156,6 @@ fn view_in_f32(view: &Eye<f64>) -> Eye<f32> {
     match *view {
         Eye::Local(eye) => Eye::Local(to_f32(eye)),
         Eye::Infinite(v) => Eye::Infinite(to_f32(v)),
-    }
-}
-
-fn light_in_f32(light: &Light<f64>) -> Light<f32> {
-    let colors = |from: Colors<f64>| Colors { la: to_f32(from.la), ld: to_f32(from.ld), ls: to_f32(from.ls) };
-    let point = |from: Point<f64>| Point {
-        position: to_f32(from.position),
-        colors: colors(from.colors),
-        attenuation: to_f32(from.attenuation),
-        range: from.range.map(|x| x as f32),
-        attenuate_ambient: from.attenuate_ambient,
-    };
-    match *light {
-        Light::Directional(Directional { toward, colors: from }) => {
-            Light::Directional(Directional { toward: to_f32(toward), colors: colors(from) })
-        }
-        Light::Point(from) => Light::Point(point(from)),
-        Light::Spot(Spot { point: from, cone }) => Light::Spot(Spot {
-            point: point(from),
-            cone: ConeTerms {
-                direction: to_f32(cone.direction),
-                cos_cutoff: cone.cos_cutoff as f32,
-                cos_inner: cone.cos_inner.map(|x| x as f32),
-                exponent: cone.exponent as f32,
-            },
-        }),
     }
 }
 
