@@ -16,6 +16,7 @@
 //! | spot | max(cos φ, 0)^e if cos φ ≥ cos(cutoff) else 0; φ between −l and the spot direction; an inner cone fades smoothly to the cutoff | cutoff in [0, π/2], or π = no cone; e ≥ 0 | [`Cone`] |
 //! | S (Phong) | max(r·v, 0)^α, r = 2(n·l)n − l | gate: 0 unless n·l > 0 | [`Reflectance::Phong`] |
 //! | S (Blinn–Phong) | max(n·h, 0)^β, h = (l + v)/‖l + v‖ | gate: 0 unless n·l > 0 | [`Reflectance::BlinnPhong`] |
+//! | sky, ground | colours of a light from all around, which adds kd·lerp(ground, sky, (1 + n·d)/2), d toward the sky | ≥ 0 | [`HemisphereLight`] |
 //! | v | local viewer: toward the eye; infinite viewer: (0, 0, 1) in eye space | | [`Viewer`] |
 //!
 //! All vectors have unit length, all colours are linear RGB (a [`LinearRgba`](bevy_color::LinearRgba) whose alpha is
@@ -86,7 +87,7 @@ pub use field::{Described, Field, FieldPlace, FieldValue};
 pub use frequency::Frequency;
 pub use intensity::Intensity;
 pub use invalid::{Fields, InvalidValue, Problem};
-pub use lights::{Attenuation, Cone, DirectionalLight, LightComponent, PointLight, SpotLight};
+pub use lights::{Attenuation, Cone, DirectionalLight, HemisphereLight, LightComponent, PointLight, SpotLight};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
 pub use place::{light_direction, light_position, light_up, rotation_along};

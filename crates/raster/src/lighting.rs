@@ -181,6 +181,23 @@ fn directional_light<S: Simd>(
     }
 }
 
+/// Adds light from all around: the sky is its diffuse color, the ground its specular one.
+#[inline(always)]
+fn hemisphere_light<S: Simd>(
+    simd: S,
+    sum: &mut Irradiance<S>,
+    light: &LightRecord,
+    points: &Points<S>,
+    terms: ShadedTerms,
+) {
+    if terms.diffuse {
+        let half = splat(simd, 0.5);
+        let up = saturate(simd, fma::<S>(dot::<S>(points.n, splat3(simd, light.position)), half, half));
+        sum.diffuse = add_scaled::<S>(sum.diffuse, splat3(simd, light.diffuse), up);
+        sum.diffuse = add_scaled::<S>(sum.diffuse, splat3(simd, light.specular), splat(simd, 1.0) - up);
+    }
+}
+
 /// Adds a point light, or a spot where `cone` is set.
 #[inline(always)]
 fn finite_light<S: Simd>(
@@ -348,6 +365,7 @@ fn add_listed<S: Simd>(
             Some(kind @ (Kind::Point | Kind::Spot)) => {
                 finite_light(simd, sum, light, kind == Kind::Spot, points, lobe, terms);
             }
+            Some(Kind::Hemisphere) => hemisphere_light(simd, sum, light, points, terms),
             // Refused by the check of the pass.
             None => {}
         }

@@ -347,6 +347,23 @@ impl<T: Real> Receiver<T> {
         if cos > T::zero() { peak.max(T::min_positive_value()) } else { peak }
     }
 
+    /// Whether the diffuse term gives back any of a colour.
+    pub(crate) fn reflects_diffuse(&self, color: [T; 3]) -> bool {
+        (0..3).any(|c| self.kd[c] * color[c] != T::zero())
+    }
+
+    /// The least and the largest n·d for a unit vector d, over the normals on the sides that are seen.
+    pub(crate) fn cosines_with(&self, d: [T; 3]) -> [T; 2] {
+        let most = |d| self.side(Angle::between(self.normals.axis, d)).cos_within(self.normals.spread);
+        [-most(neg(d)), most(d)]
+    }
+
+    /// The bounds of a light that brings at most this colour to the diffuse term, and nothing else.
+    pub(crate) fn diffuse_bounds(&self, color: [T; 3]) -> TermBounds<T> {
+        let diffuse = scale(mul(self.kd, color), T::one() + T::of(MARGIN));
+        TermBounds { diffuse, ..TermBounds::zero() }
+    }
+
     /// The angle from the nearer side's normals, for an angle from those of the front.
     fn side(&self, angle: Angle<T>) -> Angle<T> {
         if self.both_sides { angle.to_line() } else { angle }

@@ -39,7 +39,8 @@ mod transcendental;
 pub mod vector;
 
 pub use crate::lights::{
-    ATTENUATION_MAX, Colors, ConeTerms, Directional, Light, Point, Spot, attenuation, range_window, spot_factor,
+    ATTENUATION_MAX, Colors, ConeTerms, Directional, Hemisphere, Light, Point, Spot, attenuation, range_window,
+    spot_factor,
 };
 pub use encoding::srgb_encoded;
 pub use environment::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};

@@ -8,6 +8,7 @@
 mod colors;
 mod directional;
 mod falloff;
+mod hemisphere;
 mod point;
 mod spot;
 
@@ -36,6 +37,7 @@ use crate::visibility::Shown;
 pub use colors::Colors;
 pub use directional::{Directional, DirectionalLight};
 pub use falloff::{ATTENUATION_MAX, Attenuation, Cone, ConeTerms, attenuation, range_window, spot_factor};
+pub use hemisphere::{Hemisphere, HemisphereLight};
 pub use point::{Point, PointLight};
 pub use spot::{Spot, SpotLight};
 
@@ -484,4 +486,6 @@ light_kinds! {
     Point point: PointLight Point "POINT_LIGHTS";
     /// From a point, into a cone.
     Spot spot: SpotLight Spot "SPOT_LIGHTS";
+    /// From all around: one colour from the sky, another from the ground.
+    Hemisphere hemisphere: HemisphereLight Hemisphere "HEMISPHERE_LIGHTS";
 }

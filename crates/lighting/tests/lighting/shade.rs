@@ -8,7 +8,8 @@ use halfway_lighting::equations::{
     light_terms, shade, view_vector,
 };
 use halfway_lighting::{
-    Attenuation, Cone, DirectionalLight, GlobalAmbient, Material, PointLight, Reflectance, SpotLight, Viewer,
+    Attenuation, Cone, DirectionalLight, GlobalAmbient, HemisphereLight, Material, PointLight, Reflectance, SpotLight,
+    Viewer,
 };
 
 use crate::support::{close, close3, distinct_material};
@@ -188,6 +189,23 @@ fn a_light_in_the_plane_of_the_surface_is_behind_it() {
     let attenuated = PointLight { attenuate_ambient: true, ambient: LinearRgba::WHITE, ..PointLight::white() };
     let terms = light_terms(&floor, &material, &attenuated.at([2.0, -3.0, -4.0]), &eye, Reflectance::Phong);
     assert!(terms.ambient[0] > 0.0, "ambient light comes from all around");
+}
+
+#[test]
+fn a_hemisphere_is_a_mixture_by_the_normal() {
+    let light = HemisphereLight::new(LinearRgba::rgb(0.8, 0.4, 0.2), LinearRgba::rgb(0.1, 0.2, 0.6));
+    let material = Coefficients::from(&Material { diffuse: LinearRgba::rgb(0.5, 0.5, 0.5), ..Material::default() });
+    for (normal, sky) in
+        [([0.0, 1.0, 0.0], 1.0), ([0.6, 0.8, 0.0], 0.9), ([1.0, 0.0, 0.0], 0.5), ([0.0, -1.0, 0.0], 0.0)]
+    {
+        let surface = ShadedPoint { normal, ..SURFACE };
+        let light = light.toward([0.0, 3.0, 0.0]).expect("a direction");
+        assert_eq!(incidence(&surface, &light), None, "it comes from all around");
+        let terms = light_terms(&surface, &material, &light, &VIEW, Reflectance::Phong);
+        let expected = [(0.8, 0.1), (0.4, 0.2), (0.2, 0.6)].map(|(a, b)| 0.5 * (a * sky + b * (1.0 - sky)));
+        close3(terms.diffuse, expected, 1e-7, "the mixture");
+        assert_eq!((terms.ambient, terms.specular), ([0.0; 3], [0.0; 3]));
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::width::{VectorWidth, with_vectors};
 use fastrand::Rng;
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
-    self, Coefficients, Colors, ConeTerms, Directional, Eye, Light, Point, ShadedPoint, Spot, face_forward,
+    self, Coefficients, Colors, ConeTerms, Directional, Eye, Hemisphere, Light, Point, ShadedPoint, Spot, face_forward,
     vector::normalize,
 };
 
@@ -38,7 +38,7 @@ fn direction(random: &mut Rng) -> [f32; 3] {
 
 fn random_case(random: &mut Rng) -> Case {
     let p = [within(random, -2.0, 2.0), within(random, -2.0, 2.0), within(random, -9.0, -0.5)];
-    let kind = [Kind::Directional, Kind::Point, Kind::Spot][(random.f32() * 3.0) as usize];
+    let kind = Kind::ALL[(random.f32() * Kind::ALL.len() as f32) as usize];
     let toward = direction(random);
     let far = within(random, 0.1, 4.0);
     let position = [0, 1, 2].map(|axis| p[axis] + far * toward[axis]);
@@ -52,7 +52,7 @@ fn random_case(random: &mut Rng) -> Case {
         p,
         n: direction(random),
         light: LightRecord {
-            position: if kind == Kind::Directional { toward } else { position },
+            position: if matches!(kind, Kind::Directional | Kind::Hemisphere) { toward } else { position },
             inverse_range: if random.f32() < 0.5 { 0.0 } else { 1.0 / within(random, 0.5, 5.0) },
             constant: within(random, 0.1, 1.0),
             linear: within(random, 0.0, 1.0),
@@ -101,6 +101,9 @@ fn expected(case: &Case) -> [f64; 3] {
     };
     let source = match case.kind {
         Kind::Directional => Light::Directional(Directional { toward: f(light.position), colors }),
+        Kind::Hemisphere => {
+            Light::Hemisphere(Hemisphere { up: f(light.position), sky: f(light.diffuse), ground: f(light.specular) })
+        }
         Kind::Point => Light::Point(point),
         Kind::Spot => Light::Spot(Spot {
             point,
@@ -156,6 +159,7 @@ fn is_on_an_edge(case: &Case) -> bool {
     // Either side of these is right: n·l = 0, and φ = cutoff.
     let f = |v: [f32; 3]| v.map(f64::from);
     let to_light = match case.kind {
+        Kind::Hemisphere => return false,
         Kind::Directional => f(case.light.position),
         _ => [0, 1, 2].map(|axis| f64::from(case.light.position[axis]) - f64::from(case.p[axis])),
     };

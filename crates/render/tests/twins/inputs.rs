@@ -1,7 +1,7 @@
 //! What the functions are called with: every edge of their definitions, and numbers over the whole range.
 
 use fastrand::Rng;
-use halfway_lighting::equations::{Colors, ConeTerms, Directional, Light, Point, ShadedPoint, Spot};
+use halfway_lighting::equations::{Colors, ConeTerms, Directional, Hemisphere, Light, Point, ShadedPoint, Spot};
 
 use crate::adapter::INPUT;
 
@@ -128,6 +128,11 @@ pub(crate) fn point(x: &[f32]) -> Light<f64> {
 /// Parallel rays, toward where the light stands. Its record has an ambient color all the same, which is added.
 pub(crate) fn directional(x: &[f32]) -> Light<f64> {
     Light::Directional(Directional { toward: wide(x), colors: spot(x).point.colors })
+}
+
+/// Light from all around: the position of the record is the direction toward the sky.
+pub(crate) fn hemisphere(x: &[f32]) -> Light<f64> {
+    Light::Hemisphere(Hemisphere { up: wide(x), sky: wide(&x[4..]), ground: wide(&x[8..]) })
 }
 
 pub(crate) fn cone(x: &[f32]) -> ConeTerms<f64> {

@@ -7,7 +7,7 @@ use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{self, Eye, Incidence, Irradiance, Light, Point};
 
 use crate::adapter::Kind;
-use crate::inputs::{self, Input, N, P, SHININESS, cone, directional, light, point, spot, surface, wide};
+use crate::inputs::{self, Input, N, P, SHININESS, cone, directional, hemisphere, light, point, spot, surface, wide};
 
 /// Calls of one function.
 pub(crate) struct Row {
@@ -218,6 +218,7 @@ fn incidence(surface: &equations::ShadedPoint<f64>, light: &Light<f64>) -> Incid
 
 use equations::irradiance as any_light;
 use equations::irradiance as directional_light;
+use equations::irradiance as hemisphere_light;
 use equations::irradiance as point_light;
 use equations::irradiance as spot_light;
 
@@ -304,6 +305,15 @@ pub(crate) fn rows() -> Vec<Row> {
                 -> Irradiance, NOTHING, inputs::lit(inputs::coincident()),
             |x| (&surface(x), &light(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::BlinnPhong, false)),
+        // The cosine is known to 4 ULP, and each product to half of one.
+        row!(hemisphere_light("light(i, 0), v(i, 23), v(i, 26), v(i, 26), s(i, 29), Terms(true, true)")
+                -> Irradiance, NOTHING, inputs::sunny(),
+            |x| (&surface(x), &hemisphere(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |_, e| each(e, 16.0 * ULP)),
+        row!(any_light("of_kind(3u, i, 0), v(i, 23), v(i, 26), v(i, 26), s(i, 29), Terms(true, true)")
+                -> Irradiance, NOTHING, inputs::sunny(),
+            |x| (&surface(x), &hemisphere(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |_, e| each(e, 16.0 * ULP)),
         row!(any_light("of_kind(0u, i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
                 -> Irradiance, NOTHING, inputs::sunny(),
             |x| (&surface(x), &directional(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
