@@ -2,7 +2,7 @@
 
 use crate::common::{Scene, Shading, at, draw, lens, sphere};
 use halfway_lighting::Samples;
-use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
+use halfway_lighting::record::{LightRecord, MaterialRecord, SurfaceRecord};
 use halfway_raster::{
     ClearTiles, Cull, DrawCall, LARGEST_SIDE, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer,
     TriangleOrder, VectorWidth, VertexLists,
@@ -215,7 +215,7 @@ fn what_is_wrong_is_refused_and_named() {
         ("opacity is 1.5", |scene| scene.surfaces[0].back.opacity = 1.5),
         ("surface reaches to 8", |scene| scene.instances[0].surface = 7),
         ("both reaches to 3", |scene| scene.surfaces[0].lights.both.count = 3),
-        ("kind is 99", |scene| scene.lights[0].kind = 99),
+        ("kind is 99", |scene| scene.lights.push(LightRecord { kind: 99, ..LightRecord::default() })),
     ];
     for (message, spoil) in cases {
         let mut scene = squares(&[(2.0, RED, 1.0)], false);
