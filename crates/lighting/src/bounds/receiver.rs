@@ -180,7 +180,7 @@ impl<T: Real> Receiver<T> {
     // D. A test fails only by more than its rounding, and never with NaN.
 
     /// The way to a light whose l is the same everywhere.
-    pub(crate) fn offset_along(&self, l: [T; 3]) -> Offset<T> {
+    pub(crate) fn offset_along(l: [T; 3]) -> Offset<T> {
         Offset { vector: l, square: T::one(), radius: T::zero(), half_thickness: T::zero(), blur: slack() }
     }
 
@@ -270,7 +270,7 @@ impl<T: Real> Receiver<T> {
     }
 
     /// How a light arrives whose l is the same everywhere.
-    pub(crate) fn arrival_along(&self, l: [T; 3]) -> Arrival<T> {
+    pub(crate) fn arrival_along(l: [T; 3]) -> Arrival<T> {
         Arrival { l: Cap::single(l), rise: Angle::zero(), nearest: T::zero() }
     }
 

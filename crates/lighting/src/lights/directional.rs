@@ -134,11 +134,16 @@ impl<T: Real> LightSource<T> for Directional<T> {
     }
 
     fn lit_terms(&self, receiver: &Receiver<T>) -> LitTerms {
-        receiver.facing_terms(&receiver.offset_along(self.toward), receiver.colored_terms(&self.colors, false))
+        receiver.facing_terms(&Receiver::offset_along(self.toward), receiver.colored_terms(&self.colors, false))
     }
 
     fn bounds(&self, receiver: &Receiver<T>) -> TermBounds<T> {
-        receiver.bounds_of(self.lit_terms(receiver), &self.colors, || receiver.arrival_along(self.toward), |_| T::one())
+        receiver.bounds_of(
+            self.lit_terms(receiver),
+            &self.colors,
+            || Receiver::arrival_along(self.toward),
+            |_| T::one(),
+        )
     }
 
     fn reach(&self) -> Option<([T; 3], T)> {

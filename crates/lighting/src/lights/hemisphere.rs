@@ -106,7 +106,7 @@ pub struct Hemisphere<T> {
 
 impl<T: Real> Hemisphere<T> {
     /// lerp(ground, sky, (1 + n·d)/2); rounding of the cosine leaves the mixture between the two.
-    fn from_all_around(&self, n_dot_d: T) -> [T; 3] {
+    fn mixture(&self, n_dot_d: T) -> [T; 3] {
         let one = T::one();
         let share = ((one + n_dot_d) * T::of(0.5)).max(T::zero()).min(one);
         add(scale(self.ground, one - share), scale(self.sky, share))
@@ -120,7 +120,7 @@ impl<T: Real> LightSource<T> for Hemisphere<T> {
 
     fn irradiance(&self, surface: &ShadedPoint<T>, _: &Eye<T>, _: Reflectance, _: T) -> Irradiance<T> {
         let black = [T::zero(); 3];
-        let diffuse = self.from_all_around(dot(surface.normal, self.up));
+        let diffuse = self.mixture(dot(surface.normal, self.up));
         Irradiance { ambient: black, diffuse, specular: black }
     }
 
@@ -135,7 +135,7 @@ impl<T: Real> LightSource<T> for Hemisphere<T> {
 
     fn bounds(&self, receiver: &Receiver<T>) -> TermBounds<T> {
         // The mixture is linear in the cosine, so each channel is largest at an end.
-        let [least, most] = receiver.cosines_with(self.up).map(|cosine| self.from_all_around(cosine));
+        let [least, most] = receiver.cosines_with(self.up).map(|cosine| self.mixture(cosine));
         receiver.diffuse_bounds([0, 1, 2].map(|c| least[c].max(most[c])))
     }
 

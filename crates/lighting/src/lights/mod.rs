@@ -233,14 +233,14 @@ fn any_light(light: Light, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: 
         );
         for kind in Kind::ALL {
             let (constant, function, number) = (kind.wgsl_constant(), kind.wgsl_function(), *kind as u32);
-            text.push_str(&format!(
-                "    if {constant} {{
-        if !MIXED_LIGHTS || light.kind == {number}u {{
-            return {function}(light, p, n, v, shininess, terms);
-        }}
-    }}
-"
-            ));
+            text.extend([
+                "    if ",
+                constant,
+                " {\n        if !MIXED_LIGHTS || light.kind == ",
+                &number.to_string(),
+                "u {\n",
+            ]);
+            text.extend(["            return ", function, "(light, p, n, v, shininess, terms);\n        }\n    }\n"]);
         }
         text.push_str("    return Irradiance();\n}\n");
         text
