@@ -32,7 +32,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
         }
     }
     for (brightness, from) in [(0.9, Vec3::new(-2.0, 2.2, 3.0)), (0.5, Vec3::new(3.0, 1.0, 2.0))] {
-        let light = DirectionalLight::from_color(LinearRgba::WHITE * brightness);
+        let light = DirectionalLight::new(LinearRgba::WHITE * brightness);
         commands.spawn((light, Transform::from_translation(from).looking_at(Vec3::ZERO, Vec3::Y)));
     }
     commands.spawn((

@@ -92,8 +92,8 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
     });
     commands.spawn((Turning, Transform::IDENTITY, Children::spawn(SpawnIter(planets))));
     commands.spawn((Mesh3d(meshes.add(Teapot::new(12))), Material::BRASS));
-    let sun = DirectionalLight::from_color(LinearRgba::WHITE * 0.8);
-    let sky = DirectionalLight::from_color(LinearRgba::rgb(0.15, 0.25, 0.6));
+    let sun = DirectionalLight::new(LinearRgba::WHITE * 0.8);
+    let sky = DirectionalLight::new(LinearRgba::rgb(0.15, 0.25, 0.6));
     for (light, from) in [(sun, Vec3::new(-2.0, 2.0, 3.0)), (sky, Vec3::new(3.0, 1.0, 0.5))] {
         commands.spawn((light, Transform::from_translation(from).looking_at(Vec3::ZERO, Vec3::Y)));
     }

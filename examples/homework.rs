@@ -24,7 +24,7 @@ const L: [f64; 3] = [-0.30, -2.20, 2.80];
 type Colors = [[[f64; 3]; 2]; 10];
 
 fn colors() -> Option<Colors> {
-    let light = DirectionalLight::from_color(LinearRgba::rgb(1.0, 0.5, 0.5)).along(L.map(|x| -x)).ok()?;
+    let light = DirectionalLight::new(LinearRgba::rgb(1.0, 0.5, 0.5)).along(L.map(|x| -x)).ok()?;
     let red = Coefficients::from(&Material::matte(LinearRgba::RED));
     // Without highlights it makes no difference where the viewer is.
     let view = Eye::Infinite([0.0, 0.0, 1.0]);

@@ -103,7 +103,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, parts: Res<Pa
     commands.spawn((at(0.0, 0.0, -0.8), Children::spawn(teapot())));
     let mut headlight = SpotLight::white(0.1);
     headlight.cone.inner = Some(0.0);
-    headlight.light = PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(LinearRgba::WHITE * 0.7) };
+    headlight.light = PointLight { attenuation: Attenuation::NONE, ..PointLight::new(LinearRgba::WHITE * 0.7) };
     let camera = Camera { fov_y: 0.52, samples: Samples::Four, ..Camera::default() };
     let eye = at(0.0, 14.0, 18.0).looking_at(Vec3::new(0.0, 0.5, -0.6), Vec3::Y);
     commands.spawn((camera, eye, children![headlight]));
@@ -111,16 +111,16 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, parts: Res<Pa
     // The ground, and a little moonlight for the dark sides.
     let ground = meshes.add(Plane { size: 120.0, divisions: 1 });
     commands.spawn((Mesh3d(ground), Material::matte(LinearRgba::WHITE * 0.4)));
-    let moon = DirectionalLight::from_color(LinearRgba::rgb(0.05, 0.045, 0.07));
+    let moon = DirectionalLight::new(LinearRgba::rgb(0.05, 0.045, 0.07));
     commands.spawn((moon, at(-3.0, 1.0, 2.0).looking_at(Vec3::ZERO, Vec3::Y)));
 }
 
 fn point(color: LinearRgba) -> PointLight {
-    PointLight { attenuation: Attenuation::new(0.3, 0.0, 0.13), range: Some(6.0), ..PointLight::from_color(color) }
+    PointLight { attenuation: Attenuation::new(0.3, 0.0, 0.13), range: Some(6.0), ..PointLight::new(color) }
 }
 
 fn spot(color: LinearRgba, cutoff_degrees: f32) -> SpotLight {
-    let light = PointLight { attenuation: Attenuation::new(0.8, 0.0, 0.03), ..PointLight::from_color(color) };
+    let light = PointLight { attenuation: Attenuation::new(0.8, 0.0, 0.03), ..PointLight::new(color) };
     let cutoff = cutoff_degrees.to_radians();
     SpotLight { light, cone: Cone { inner: Some(0.7 * cutoff), ..Cone::new(cutoff) } }
 }

@@ -25,7 +25,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
         commands.spawn((Mesh3d(teapot.clone()), material, shading, transform));
     }
     for (brightness, from) in [(1.0, Vec3::new(-2.0, 1.6, 3.0)), (0.4, Vec3::new(3.0, 2.0, 1.0))] {
-        let light = DirectionalLight::from_color(LinearRgba::WHITE * brightness);
+        let light = DirectionalLight::new(LinearRgba::WHITE * brightness);
         commands.spawn((light, Transform::from_translation(from).looking_at(Vec3::ZERO, Vec3::Y)));
     }
     commands.spawn((

@@ -225,6 +225,28 @@ fn a_light_with_w_of_zero_is_directional() {
 }
 
 #[test]
+fn a_hemisphere_mixes_sky_and_ground() {
+    let mut stage = Stage::new(9, 9);
+    for degrees in [0.0_f32, 30.0, 60.0, 80.0] {
+        for (row, up, front) in
+            [("the front", Vec3::Z, true), ("the back", Vec3::Z, false), ("ground", Vec3::NEG_Z, true)]
+        {
+            let light = HemisphereLight::new(LinearRgba::rgb(0.8, 0.8, 0.8), LinearRgba::rgb(0.2, 0.2, 0.2));
+            let mut scene = wall(degrees, glossy(8.0)).lit(Lamp::hemisphere(light, up));
+            if !front {
+                // A back face is lit with −n, which looks the other way.
+                scene = wall(180.0 - degrees, glossy(8.0)).lit(Lamp::hemisphere(light, up));
+                scene.things[0].faces = Some(Faces::Both);
+            }
+            let n_dot_d = f64::from(degrees.to_radians().cos()) * if up == Vec3::Z { 1.0 } else { -1.0 };
+            let sky = if front { (1.0 + n_dot_d) / 2.0 } else { (1.0 - n_dot_d) / 2.0 };
+            let expected = f64::from(KD) * (0.2 * (1.0 - sky) + 0.8 * sky);
+            assert_centre(&format!("{row} at {degrees}°"), &mut stage, &scene, expected, 1e-6);
+        }
+    }
+}
+
+#[test]
 fn four_times_the_shininess_makes_phongs_highlight_of_blinns() {
     let mut stage = Stage::new(9, 9);
     for alpha in [5.0, 20.0, 100.0] {

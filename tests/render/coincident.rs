@@ -14,7 +14,7 @@ fn a_light_on_a_vertex_shines_along_the_normal() {
     let positions = Mesh::from(sphere).positions().to_vec();
     // A millionth of white, which the largest attenuation makes white at the vertex.
     let faint = LinearRgba::rgb(1e-6, 0.7e-6, 0.4e-6);
-    let light = PointLight { attenuation: Attenuation::INVERSE_SQUARE, ..PointLight::from_color(faint) };
+    let light = PointLight { attenuation: Attenuation::INVERSE_SQUARE, ..PointLight::new(faint) };
     for (number, vertex) in positions.iter().enumerate().step_by(3) {
         let turned = rotated(0.3 + 0.1 * number as f32, 0.5, 0.2).with_translation(Vec3::new(3.1, -0.7, 0.9));
         let at = turned.transform_point(*vertex);

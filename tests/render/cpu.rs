@@ -27,7 +27,7 @@ fn scene(lights: u8) -> Scene {
     scene = scene.with(glass.at(Transform::from_xyz(0.4, 0.6, 1.6).with_rotation(Quat::from_rotation_y(0.4))));
     for i in 0..lights {
         let at = Vec3::new(2.0 * f32::from(i % 5) - 4.0, 1.0, 2.0 * f32::from(i / 5) - 4.0);
-        let light = PointLight { range: Some(2.0), ..PointLight::from_color(LinearRgba::rgb(0.3, 0.2, 0.25)) };
+        let light = PointLight { range: Some(2.0), ..PointLight::new(LinearRgba::rgb(0.3, 0.2, 0.25)) };
         scene = scene.lit(Lamp::point(light, at));
     }
     scene

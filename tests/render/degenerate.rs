@@ -100,7 +100,7 @@ fn equal_scenes_told_differently_are_equal_to_the_bit() {
 
 #[test]
 fn nearly_equal_scenes_are_nearly_equal() {
-    let dark = PointLight::from_color(LinearRgba::BLACK);
+    let dark = PointLight::new(LinearRgba::BLACK);
     let white = PointLight { ambient: LinearRgba::BLACK, ..PointLight::white() };
     let nudged = PointLight { specular: LinearRgba::rgb(1.0, 1.0, 1.0 - f32::EPSILON), ..white };
     let unweakened = PointLight { attenuation: Attenuation::NONE, ..point_light() };
@@ -238,7 +238,7 @@ fn the_order_in_which_lights_are_spawned_changes_rounding_only() {
         point(point_light()),
         spot(point_light(), Cone::new(0.6)),
         Lamp::directional(directional_light(), Vec3::new(1.0, -1.0, -1.0)),
-        Lamp::point(PointLight::from_color(LinearRgba::rgb(0.1, 0.9, 0.3)), Vec3::new(-1.0, 0.5, 2.0)),
+        Lamp::point(PointLight::new(LinearRgba::rgb(0.1, 0.9, 0.3)), Vec3::new(-1.0, 0.5, 2.0)),
     ];
     let forward = stage.draw(&lit(lamps.clone()));
     let backward = stage.draw(&lit(lamps.into_iter().rev()));

@@ -93,7 +93,7 @@ const LIGHTS: &[Row] = &[
     ),
     (
         "a NaN direction's colour",
-        |w| lamp(w, DirectionalLight::from_color(NAN)),
+        |w| lamp(w, DirectionalLight::new(NAN)),
         &["\"lamp\"", "DirectionalLight.diffuse.green"],
     ),
     (

@@ -115,9 +115,9 @@ fn the_last_light_of_every_kind_shines() {
         for kind in 0..3 {
             let lamp = |i: usize| {
                 let grey = if i + 1 == count { LinearRgba::rgb(0.5, 0.5, 0.5) } else { LinearRgba::BLACK };
-                let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(grey) };
+                let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::new(grey) };
                 match kind {
-                    0 => Lamp::directional(DirectionalLight::from_color(grey), Vec3::NEG_Z),
+                    0 => Lamp::directional(DirectionalLight::new(grey), Vec3::NEG_Z),
                     1 => Lamp::point(light, Vec3::Z * 1e4),
                     _ => Lamp::spot(SpotLight { light, cone: Cone::new(0.5) }, Vec3::Z * 1e4, Vec3::NEG_Z),
                 }
@@ -137,7 +137,7 @@ fn a_thousand_equal_lights_are_one_a_thousand_times_as_bright() {
     let square = Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 9.0).of(Material::matte(LinearRgba::WHITE));
     for count in COUNTS.into_iter().filter(|&count| count > 0) {
         let share = 1.0 / count as f32;
-        let light = DirectionalLight::from_color(LinearRgba::rgb(share, share, share));
+        let light = DirectionalLight::new(LinearRgba::rgb(share, share, share));
         let mut scene = Scene::in_eye_space().with(square.clone());
         scene.lamps = vec![Lamp::directional(light, Vec3::NEG_Z); count];
         let centre = stage.draw(&scene).get_pixel(4, 4).0[0];

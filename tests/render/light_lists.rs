@@ -22,7 +22,7 @@ fn above(size: f32) -> Scene {
 /// A light of this brightness with a range.
 fn ranged(brightness: f32, range: f32) -> PointLight {
     let colour = LinearRgba::rgb(brightness, 0.8 * brightness, 0.6 * brightness);
-    PointLight { range: Some(range), attenuation: Attenuation::new(1.0, 0.1, 0.3), ..PointLight::from_color(colour) }
+    PointLight { range: Some(range), attenuation: Attenuation::new(1.0, 0.1, 0.3), ..PointLight::new(colour) }
 }
 
 /// A rough floor with balls on it, and `count` lights of all kinds over it.
@@ -55,7 +55,7 @@ fn hall(count: usize, shading: Shading) -> Scene {
         });
     }
     let share = 0.5 / count as f32;
-    let sky = DirectionalLight::from_color(LinearRgba::rgb(share, share, share));
+    let sky = DirectionalLight::new(LinearRgba::rgb(share, share, share));
     scene.lit(Lamp::directional(sky, Vec3::new(0.2, -1.0, 0.1)))
 }
 
@@ -153,7 +153,7 @@ fn highlights_are_listed_where_they_can_be_seen() {
             // Low and far out: halfway vectors lean by 30° and more over the most of the floor.
             let around = between(&mut random, 0.0, std::f32::consts::TAU);
             let at = Vec3::new(60.0 * around.cos(), 8.0, 60.0 * around.sin());
-            let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(LinearRgba::gray(0.1)) };
+            let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::new(LinearRgba::gray(0.1)) };
             scene.lamps.push(Lamp::point(light, at));
         }
         stage.draw_bytes(&scene);
@@ -184,7 +184,7 @@ fn around(count: usize) -> impl Iterator<Item = Vec3> {
 
 /// A light that all of a floor gets.
 fn dim() -> PointLight {
-    PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(LinearRgba::gray(0.1)) }
+    PointLight { attenuation: Attenuation::NONE, ..PointLight::new(LinearRgba::gray(0.1)) }
 }
 
 #[test]
@@ -310,8 +310,7 @@ fn lights_that_cannot_reach_are_not_assigned() {
 fn lights_beyond_the_reach_of_squares_keep_their_direction() {
     let mut stage = Stage::new(48, 48);
     let mut scene = Scene::seen_from(Vec3::new(0.0, 0.0, 3.0), Vec3::ZERO).with(Thing::new(UvSphere::new(1.0, 32, 16)));
-    let light =
-        PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(LinearRgba::rgb(0.1, 0.08, 0.06)) };
+    let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::new(LinearRgba::rgb(0.1, 0.08, 0.06)) };
     // More than are compiled in.
     for _ in 0..9 {
         scene = scene.lit(Lamp::point(light, Vec3::new(0.3, 0.5, 0.8) * 1e38));

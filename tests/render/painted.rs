@@ -25,7 +25,7 @@ fn floor(maps: Vec<(MapKind, Map)>) -> Scene {
         let color = LinearRgba::gray(brightness);
         if number % 3 > 0 {
             let down = Vec3::new(between(&mut random, -0.3, 0.3), -1.0, between(&mut random, -0.3, 0.3));
-            let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::from_color(color) };
+            let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::new(color) };
             scene.lamps.push(Lamp::directional(light, down));
         } else {
             let at = Vec3::new(
@@ -33,7 +33,7 @@ fn floor(maps: Vec<(MapKind, Map)>) -> Scene {
                 between(&mut random, 0.5, 2.0),
                 between(&mut random, -2.0, 2.0),
             );
-            scene.lamps.push(Lamp::point(PointLight::from_color(color), at));
+            scene.lamps.push(Lamp::point(PointLight::new(color), at));
         }
     }
     scene

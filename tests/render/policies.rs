@@ -134,7 +134,7 @@ fn a_tolerance_holds_for_what_a_policy_makes_of_the_picture() {
         let mut scene = Scene::seen_from(Vec3::new(0.4, 0.3, 3.0), Vec3::ZERO).with(ball);
         for i in 0..24 {
             let angle = i as f32;
-            let light = PointLight::from_color(LinearRgba::rgb(0.4, 0.2, 0.3) * if i < 12 { 1.0 } else { 1e-3 });
+            let light = PointLight::new(LinearRgba::rgb(0.4, 0.2, 0.3) * if i < 12 { 1.0 } else { 1e-3 });
             let at = Vec3::new(3.0 * angle.cos(), 3.0 * angle.sin(), 2.0);
             scene.lamps.push(crate::render::scene::Lamp::point(light, at));
         }

@@ -41,6 +41,7 @@ pub(crate) enum Kind {
     Directional(DirectionalLight),
     Point(PointLight),
     Spot(SpotLight),
+    Hemisphere(HemisphereLight),
 }
 
 /// The frame that a lamp is attached to.
@@ -138,6 +139,11 @@ impl Lamp {
 
     pub(crate) fn directional(light: DirectionalLight, direction: Vec3) -> Self {
         Self { kind: Kind::Directional(light), on: On::World, at: shining(Vec3::ZERO, direction) }
+    }
+
+    pub(crate) fn hemisphere(light: HemisphereLight, up: Vec3) -> Self {
+        let turned = Quat::from_rotation_arc(Vec3::Y, up.normalize());
+        Self { kind: Kind::Hemisphere(light), on: On::World, at: Transform::from_rotation(turned) }
     }
 
     pub(crate) fn on(mut self, on: On) -> Self {

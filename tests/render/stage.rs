@@ -228,6 +228,7 @@ impl Stage {
             Kind::Directional(light) => self.child((light, lamp.at), parent),
             Kind::Point(light) => self.child((light, lamp.at), parent),
             Kind::Spot(light) => self.child((light, lamp.at), parent),
+            Kind::Hemisphere(light) => self.child((light, lamp.at), parent),
         };
     }
 

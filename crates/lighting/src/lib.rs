@@ -16,6 +16,7 @@
 //! | spot | max(cos φ, 0)^e if cos φ ≥ cos(cutoff) else 0; φ between −l and the spot direction; an inner cone fades smoothly to the cutoff | cutoff in [0, π/2], or π = no cone; e ≥ 0 | [`Cone`] |
 //! | S (Phong) | max(r·v, 0)^α, r = 2(n·l)n − l | gate: 0 unless n·l > 0 | [`Reflectance::Phong`] |
 //! | S (Blinn–Phong) | max(n·h, 0)^β, h = (l + v)/‖l + v‖ | gate: 0 unless n·l > 0 | [`Reflectance::BlinnPhong`] |
+//! | sky, ground | colours of a light from all around, which adds kd·lerp(ground, sky, (1 + n·d)/2), d toward the sky | ≥ 0 | [`HemisphereLight`] |
 //! | v | local viewer: toward the eye; infinite viewer: (0, 0, 1) in eye space | | [`Viewer`] |
 //!
 //! All vectors have unit length, all colours are linear RGB (a [`LinearRgba`](bevy_color::LinearRgba) whose alpha is
@@ -30,6 +31,7 @@
 //!   [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
+//! - [`lights`]: the kinds of light, a file each: component, maths, bound, record, WGSL and fields.
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`record`]: lights, materials and instances as whatever draws reads them.
@@ -56,6 +58,7 @@
 // Powers and the functions of angles only by `equations::Transcendental`: see clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod ambient;
 pub mod bounds;
 mod camera;
 pub mod equations;
@@ -64,7 +67,7 @@ mod frequency;
 pub mod homogeneous;
 mod intensity;
 mod invalid;
-mod light;
+pub mod lights;
 mod matched;
 mod material;
 mod place;
@@ -78,15 +81,16 @@ mod tolerance;
 mod vertex_colors;
 mod visibility;
 
+pub use ambient::GlobalAmbient;
 pub use camera::{Camera, Encoding, Samples};
 pub use field::{Described, Field, FieldPlace, FieldValue};
 pub use frequency::Frequency;
 pub use intensity::Intensity;
 pub use invalid::{Fields, InvalidValue, Problem};
-pub use light::{Attenuation, Cone, DirectionalLight, GlobalAmbient, PointLight, SpotLight};
+pub use lights::{Attenuation, Cone, DirectionalLight, HemisphereLight, LightComponent, PointLight, SpotLight};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
-pub use place::{light_direction, light_position, rotation_along};
+pub use place::{light_direction, light_position, light_up, rotation_along};
 pub use plugin::LightingPlugin;
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};

@@ -6,14 +6,16 @@
 use bevy_math::{Affine3A, Mat3, Vec3, Vec3A};
 use bytemuck::{Pod, Zeroable};
 
-use crate::equations::{Coefficients, ConeTerms, Light, Place, specular_exponent};
+use crate::equations::{Coefficients, specular_exponent};
+use crate::lights::Light;
 use crate::{Faces, Reflectance};
 
-/// A light. Of a directional light only `position` and the colors count, of a point light no cone.
+/// A light. Each kind says by its [`LightKind::record`](crate::lights::LightKind::record) what it fills; the rest is 0
+/// or plays no part.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct LightRecord {
-    /// Where it is; of a directional light the unit vector toward it.
+    /// Where it is, or the unit vector toward it.
     pub position: [f32; 3],
     /// 1/R, or 0 for no end.
     pub inverse_range: f32,
@@ -39,12 +41,12 @@ pub struct LightRecord {
     pub inner_scale: f32,
     /// Its offset; 1 without an inner cone.
     pub inner_offset: f32,
-    #[doc(hidden)]
-    pub padding: f32,
+    /// The number of its [`Kind`](crate::lights::Kind).
+    pub kind: u32,
 }
 
 impl Default for LightRecord {
-    /// A black one.
+    /// A black directional one.
     fn default() -> Self {
         Self {
             position: [0.0, 0.0, 1.0],
@@ -60,41 +62,15 @@ impl Default for LightRecord {
             exponent: 0.0,
             inner_scale: 0.0,
             inner_offset: 1.0,
-            padding: 0.0,
+            kind: 0,
         }
     }
 }
 
 impl From<&Light<f64>> for LightRecord {
     fn from(light: &Light<f64>) -> Self {
-        let (Place::Point(position) | Place::Directional(position)) = light.place;
-        let [constant, linear, quadratic] = light.attenuation.map(number);
-        let mut record = Self {
-            position: position.map(number),
-            inverse_range: light.range.map_or(0.0, |range| number(range.recip())),
-            diffuse: light.ld.map(number),
-            constant,
-            specular: light.ls.map(number),
-            linear,
-            quadratic,
-            ambient: if light.attenuate_ambient { light.la.map(number) } else { [0.0; 3] },
-            ..Self::default()
-        };
-        if let Some(cone) = &light.cone {
-            record.direction = cone.direction.map(number);
-            record.cos_cutoff = number(cone.cos_cutoff);
-            record.exponent = number(cone.exponent);
-            [record.inner_scale, record.inner_offset] = inner_fade(cone).map(number);
-        }
-        record
+        light.record()
     }
-}
-
-/// The inner cone's fade of `KHR_lights_punctual`, s = clamp((cos φ − cos cutoff)/(cos inner − cos cutoff), 0, 1), as
-/// scale and offset of cos φ; 0 and 1, which is s = 1, where there is no inner cone or it is as wide as the cutoff.
-fn inner_fade(cone: &ConeTerms<f64>) -> [f64; 2] {
-    let width = cone.cos_inner.map_or(0.0, |cos_inner| cos_inner - cone.cos_cutoff);
-    if width > 0.0 { [1.0 / width, -cone.cos_cutoff / width] } else { [0.0, 1.0] }
 }
 
 /// One side of a surface: its colors, exponent and opacity.
@@ -160,26 +136,20 @@ pub enum Cull {
     None,
 }
 
-/// Some lights of a frame's list of numbers: `counts` directional, point and spot lights, in this order, from `start`
-/// on.
+/// Some lights of a frame's list of numbers.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct LightRange {
-    /// How many directional, point and spot lights.
-    pub counts: [u32; 3],
     /// The first number's place in the list.
     pub start: u32,
+    /// How many lights.
+    pub count: u32,
 }
 
 impl LightRange {
-    /// How many lights.
-    pub fn len(&self) -> u64 {
-        self.counts.iter().map(|&count| u64::from(count)).sum()
-    }
-
     /// Whether it names none.
     pub fn is_empty(&self) -> bool {
-        self.counts == [0; 3]
+        self.count == 0
     }
 }
 
@@ -207,7 +177,7 @@ pub struct SurfaceRecord {
     /// The lights.
     pub lights: SurfaceLights,
     #[doc(hidden)]
-    pub padding: [u32; 12],
+    pub padding: [u32; 18],
 }
 
 /// Where a mesh stands, and what it is made of.
@@ -242,7 +212,7 @@ impl InstanceRecord {
 }
 
 /// The nearest number of f32, or the largest.
-fn number(value: f64) -> f32 {
+pub(crate) fn number(value: f64) -> f32 {
     finite(value as f32)
 }
 

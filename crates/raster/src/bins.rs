@@ -409,7 +409,7 @@ mod tests {
             normal: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             surface: 0,
         }];
-        let lit = LightRange { counts: [0, 1, 0], start: 0 };
+        let lit = LightRange { start: 0, count: 1 };
         let surfaces = [SurfaceRecord {
             lights: SurfaceLights { both: lit, ..SurfaceLights::default() },
             ..SurfaceRecord::default()

@@ -3,6 +3,7 @@
 use crate::error::{LARGEST_SIDE, RasterError};
 use crate::pass::{DrawCall, DrawMaps, Output, Pass};
 use halfway_lighting::Frequency;
+use halfway_lighting::lights::Kind;
 use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
 use halfway_texture::environment::SurroundingsData;
 use halfway_texture::{MapKind, SolidTexture};
@@ -101,6 +102,9 @@ fn check_view(pass: &Pass) -> Result<(), RasterError> {
 }
 
 fn check_light(index: usize, light: &LightRecord) -> Result<(), RasterError> {
+    if Kind::from_number(light.kind).is_none() {
+        return wrong("light", index, "kind", light.kind as f32, "the number of a kind of light");
+    }
     finite("light", index, "position", &light.position)?;
     finite("light", index, "direction", &light.direction)?;
     finite("light", index, "cos_cutoff", &[light.cos_cutoff])?;
@@ -130,7 +134,7 @@ fn check_surface(index: usize, surface: &SurfaceRecord, pass: &Pass) -> Result<(
         }
     }
     let range = |field, range: &LightRange| {
-        let end = u64::from(range.start) + range.len();
+        let end = u64::from(range.start) + u64::from(range.count);
         let fits = range.is_empty() || end <= pass.lists.len() as u64;
         if fits { Ok(()) } else { beyond("surface", index, field, end, pass.lists.len()) }
     };

@@ -9,6 +9,7 @@ use crate::lobe::PointLobe;
 use crate::power::{Exponent, power};
 use fearless_simd::prelude::*;
 use halfway_lighting::equations::{ATTENUATION_MAX, COINCIDENT, GRAZING};
+use halfway_lighting::lights::Kind;
 use halfway_lighting::record::{LightRange, LightRecord, MaterialRecord, SurfaceLights};
 
 /// Which terms are shaded; ambient that is attenuated goes with diffuse.
@@ -160,9 +161,63 @@ fn is_beyond_all<S: Simd>(simd: S, squared: F<S>, inverse_range: f32) -> bool {
     square_over_range.simd_lt(splat(simd, 1.0 + 1e-5)).all_false()
 }
 
-/// A point light, or a spot where `cone` is set; `None` where it is behind all points, or reaches none.
+/// Adds parallel rays.
+#[inline(always)]
+fn directional_light<S: Simd>(
+    simd: S,
+    sum: &mut Irradiance<S>,
+    light: &LightRecord,
+    points: &Points<S>,
+    lobe: impl PointLobe<S>,
+    terms: ShadedTerms,
+) {
+    let l = splat3(simd, light.position);
+    let n_dot_l = dot::<S>(points.n, l);
+    if !is_behind_all(simd, n_dot_l, light, terms) {
+        let is_above = n_dot_l.simd_gt(splat(simd, GRAZING));
+        let n_dot_l = is_above.select(n_dot_l, splat(simd, 0.0));
+        let incident = Incidence { l, n_dot_l, weight: splat(simd, 1.0) };
+        add_light(simd, sum, light, &incident, points, lobe, terms);
+    }
+}
+
+/// Adds light from all around: the sky is its diffuse color, the ground its specular one.
+#[inline(always)]
+fn hemisphere_light<S: Simd>(
+    simd: S,
+    sum: &mut Irradiance<S>,
+    light: &LightRecord,
+    points: &Points<S>,
+    terms: ShadedTerms,
+) {
+    if terms.diffuse {
+        let half = splat(simd, 0.5);
+        let up = saturate(simd, fma::<S>(dot::<S>(points.n, splat3(simd, light.position)), half, half));
+        sum.diffuse = add_scaled::<S>(sum.diffuse, splat3(simd, light.diffuse), up);
+        sum.diffuse = add_scaled::<S>(sum.diffuse, splat3(simd, light.specular), splat(simd, 1.0) - up);
+    }
+}
+
+/// Adds a point light, or a spot where `cone` is set.
 #[inline(always)]
 fn finite_light<S: Simd>(
+    simd: S,
+    sum: &mut Irradiance<S>,
+    light: &LightRecord,
+    cone: bool,
+    points: &Points<S>,
+    lobe: impl PointLobe<S>,
+    terms: ShadedTerms,
+) {
+    if let Some(incident) = finite_incidence(simd, light, cone, points, terms) {
+        add_light(simd, sum, light, &incident, points, lobe, terms);
+    }
+}
+
+/// How a light at a position arrives, with its cone where `cone` is set; `None` where it is behind all points, or reaches
+/// none.
+#[inline(always)]
+fn finite_incidence<S: Simd>(
     simd: S,
     light: &LightRecord,
     cone: bool,
@@ -303,24 +358,16 @@ fn add_listed<S: Simd>(
     if range.is_empty() || terms.is_empty() {
         return;
     }
-    let [directional, finite, spots] = range.counts.map(|count| count as usize);
-    let numbers = &lists[range.start as usize..][..directional + finite + spots];
-    let (far, near) = numbers.split_at(directional);
-    for &number in far {
+    for &number in &lists[range.start as usize..][..range.count as usize] {
         let light = &lights[number as usize];
-        let l = splat3(simd, light.position);
-        let n_dot_l = dot::<S>(points.n, l);
-        if !is_behind_all(simd, n_dot_l, light, terms) {
-            let is_above = n_dot_l.simd_gt(splat(simd, GRAZING));
-            let n_dot_l = is_above.select(n_dot_l, splat(simd, 0.0));
-            let incident = Incidence { l, n_dot_l, weight: splat(simd, 1.0) };
-            add_light(simd, sum, light, &incident, points, lobe, terms);
-        }
-    }
-    for (place, &number) in near.iter().enumerate() {
-        let light = &lights[number as usize];
-        if let Some(incident) = finite_light(simd, light, place >= finite, points, terms) {
-            add_light(simd, sum, light, &incident, points, lobe, terms);
+        match Kind::from_number(light.kind) {
+            Some(Kind::Directional) => directional_light(simd, sum, light, points, lobe, terms),
+            Some(kind @ (Kind::Point | Kind::Spot)) => {
+                finite_light(simd, sum, light, kind == Kind::Spot, points, lobe, terms);
+            }
+            Some(Kind::Hemisphere) => hemisphere_light(simd, sum, light, points, terms),
+            // Refused by the check of the pass.
+            None => {}
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Bound::Included;
 
-use halfway_lighting::{Attenuation, PointLight, Range};
+use halfway_lighting::{Attenuation, HemisphereLight, PointLight, Range};
 use serde::de::{Deserializer, Error};
 use serde::ser::Serializer;
 use serde_json::{Map, Value, json};
@@ -22,8 +22,10 @@ pub struct LightEntry {
     pub position: [f32; 4],
     /// Which way it shines; of a directional light only the direction counts.
     pub cone: ConeEntry,
-    /// Its colors and how they weaken.
+    /// Its colors and how they weaken, but for those of a hemisphere.
     pub light: PointLight,
+    /// The colors of a hemisphere.
+    pub hemisphere: HemisphereLight,
     /// Whose frame position and direction are in, and with what the light moves.
     pub attach: AttachEntry,
 }
@@ -40,6 +42,8 @@ pub enum LightKind {
     /// A homogeneous position (x, y, z, w), as in OpenGL: w = 0 is a direction toward the light, any other w a point
     /// at xyz/w.
     Homogeneous,
+    /// From all around: one color from the sky, another from the ground.
+    Hemisphere,
 }
 
 keys! {
@@ -141,6 +145,8 @@ words! {
         /// A homogeneous position (x, y, z, w), as in OpenGL: w = 0 is a direction toward the light, any other w a
         /// point at xyz/w.
         homogeneous = Self::Homogeneous,
+        /// From all around: one color from the sky, another from the ground; the direction is toward the sky.
+        hemisphere = Self::Hemisphere,
     }
 }
 
@@ -168,11 +174,17 @@ impl LightKind {
             Self::Point => &ALL.as_slice()[..4],
             Self::Directional => &ALL.as_slice()[4..5],
             Self::Spot | Self::Homogeneous => &ALL,
+            Self::Hemisphere => &["direction", "sky", "ground"],
         }
     }
 
+    /// The keys that it has beside those of its kind alone.
+    fn shared_keys(self) -> &'static [&'static str] {
+        if self == Self::Hemisphere { &["kind", "attach"] } else { &SHARED }
+    }
+
     fn has(self, key: &str) -> bool {
-        self.keys().contains(&key) || SHARED.contains(&key)
+        self.keys().contains(&key) || self.shared_keys().contains(&key)
     }
 }
 
@@ -187,8 +199,12 @@ impl LightEntry {
             }
             // OpenGL's: from the viewer's side, along −Z.
             LightKind::Homogeneous => ([0.0, 0.0, 1.0, 0.0], ConeEntry::NONE),
+            LightKind::Hemisphere => {
+                ([0.0, 1.0, 0.0, 0.0], ConeEntry { direction: [0.0, 1.0, 0.0], ..ConeEntry::NONE })
+            }
         };
-        Self { kind, position, cone, light: PointLight::white(), attach: AttachEntry::World }
+        let (light, hemisphere) = (PointLight::white(), HemisphereLight::white());
+        Self { kind, position, cone, light, hemisphere, attach: AttachEntry::World }
     }
 }
 
@@ -261,7 +277,7 @@ impl Keys for LightEntry {
     }
 
     fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
-        let Self { kind, position, cone, light, attach } = self;
+        let Self { kind, position, cone, light, hemisphere, attach } = self;
         let [x, y, z, _] = *position;
         let own = &mut KeysOfKind { kind: *kind, visitor };
         own.key(&KIND, Some(kind))?;
@@ -271,6 +287,7 @@ impl Keys for LightEntry {
         }?;
         cone.visit(own)?;
         described::visit(light, own)?;
+        described::visit(hemisphere, own)?;
         own.key(&ATTACH, Some(attach))
     }
 
@@ -279,6 +296,7 @@ impl Keys for LightEntry {
         from.key(&POSITION, |Position(position)| self.position = position)?;
         self.cone.fill(from)?;
         described::fill(&mut self.light, from)?;
+        described::fill(&mut self.hemisphere, from)?;
         from.key(&ATTACH, |attach| self.attach = attach)
     }
 }
@@ -289,10 +307,10 @@ impl Object for LightEntry {
     fn with_given(self, given: &[&str]) -> Result<Self, String> {
         let kind = self.kind;
         if let Some(key) = given.iter().find(|key| !kind.has(key)) {
-            let (name, keys) = (kind.name(), kind.keys().join(", "));
-            return Err(format!(
-                "`{key}` does not belong to a {name} light, whose keys are {keys}, ambient, diffuse, specular and attach"
-            ));
+            let shared = kind.shared_keys().iter().filter(|key| !["kind", "attach"].contains(key));
+            let keys: Vec<_> = kind.keys().iter().chain(shared).copied().collect();
+            let (name, keys) = (kind.name(), keys.join(", "));
+            return Err(format!("`{key}` does not belong to a {name} light, whose keys are {keys} and attach"));
         }
         // The defaults of position and cone depend on the kind.
         let default = Self::white(kind);
@@ -333,6 +351,7 @@ impl Object for LightEntry {
         homogeneous("position", &self.position)?;
         self.cone.check(&Limits::Any)?;
         described::visit(&self.light, &mut CheckKeys)?;
+        described::visit(&self.hemisphere, &mut CheckKeys)?;
         if self.light.attenuation == Attenuation::new(0.0, 0.0, 0.0) {
             return Err(KeyProblem::new("attenuation", "is [0, 0, 0]; expected at least one number above 0"));
         }

@@ -5,15 +5,20 @@ use bevy_math::{Quat, Vec3, Vec4};
 use bevy_transform::components::Transform;
 use halfway_lighting::equations::spot_factor;
 use halfway_lighting::homogeneous::{LightPlace, from_homogeneous};
-use halfway_lighting::{Cone, DirectionalLight, SpotLight, rotation_along};
+use halfway_lighting::{Cone, DirectionalLight, LightComponent, SpotLight, rotation_along};
 
 use crate::light::{ConeEntry, LightEntry, LightKind};
-use crate::light_component::LightComponent;
 
 /// The component of a light and its transform in the frame it is attached to. The light is one that validation passed.
 pub(crate) fn place(entry: &LightEntry) -> (LightComponent, Transform) {
+    let direction = Vec3::from(entry.cone.direction);
     let place = match entry.kind {
-        LightKind::Directional => Ok(LightPlace::Directional(-Vec3::from(entry.cone.direction))),
+        // Validation has refused directions of length 0. The sky is along +Y.
+        LightKind::Hemisphere => {
+            let up = Quat::from_rotation_arc(Vec3::Y, along(&entry.cone) * Vec3::NEG_Z);
+            return (LightComponent::Hemisphere(entry.hemisphere), Transform::from_rotation(up));
+        }
+        LightKind::Directional => Ok(LightPlace::Directional(-direction)),
         _ => from_homogeneous(Vec4::from(entry.position)),
     };
     match place {

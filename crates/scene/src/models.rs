@@ -12,9 +12,9 @@ use halfway_texture::{FarNormals, MapKind, SurfaceMap, TexelMeaning, Texture, Uv
 
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
-use crate::light_component::LightComponent;
 use crate::mesh::MeshEntry;
 use crate::object::ObjectEntry;
+use halfway_lighting::LightComponent;
 
 /// The mesh of an object.
 pub(crate) struct ObjectShape {

@@ -19,13 +19,13 @@ use crate::defaults::{default_lights, framing_camera};
 use crate::error::SceneError;
 use crate::file::SceneFile;
 use crate::light::{AttachEntry, LightEntry};
-use crate::light_component::LightComponent;
 use crate::light_place::place;
 use crate::material::MaterialEntry;
 use crate::models::{ModelMap, ObjectShape, ShapePart, Shapes};
 use crate::object::ObjectEntry;
 use crate::placement::Placement;
 use crate::view::CameraEntry;
+use halfway_lighting::LightComponent;
 
 /// The entities of a scene that was spawned.
 #[derive(Clone, Debug)]

@@ -29,6 +29,11 @@ fn spot(at: Vec3) -> Lamp {
     Lamp::spot(SpotLight { light: point_light(), cone: Cone { cutoff: 0.5, inner: Some(0.2), exponent: 2.0 } }, at, -at)
 }
 
+fn outside() -> Lamp {
+    let light = HemisphereLight::new(LinearRgba::rgb(0.4, 0.5, 0.7), LinearRgba::rgb(0.3, 0.2, 0.1));
+    Lamp::hemisphere(light, Vec3::new(0.3, 1.0, 0.5))
+}
+
 fn sun(along: Vec3) -> Lamp {
     Lamp::directional(directional_light(), along)
 }
@@ -103,16 +108,19 @@ fn materials_and_lights() -> Vec<(&'static str, Scene)> {
         (
             "one colour for diffuse and specular",
             with(|scene| {
-                of_light(scene, PointLight::from_color(LinearRgba::rgb(0.9, 0.7, 0.8)));
+                of_light(scene, PointLight::new(LinearRgba::rgb(0.9, 0.7, 0.8)));
             }),
         ),
         (
             "brighter than 1",
             with(|scene| {
-                of_light(scene, PointLight::from_color(LinearRgba::rgb(9.0, 4.0, 2.0)));
+                of_light(scene, PointLight::new(LinearRgba::rgb(9.0, 4.0, 2.0)));
             }),
         ),
         ("two lights of each kind", lights(6)),
+        ("a hemisphere alone", still_life().lit(outside())),
+        ("a hemisphere beside a lamp", with(|scene| scene.lamps.push(outside()))),
+        ("a hemisphere among nine lights", lights(9).lit(outside())),
         ("nine lights", lights(9)),
         ("130 lights", lights(130)),
     ]

@@ -8,7 +8,7 @@ use halfway::prelude::*;
 
 /// Brighter than 1 in places, and each channel by another amount.
 fn bright() -> Scene {
-    still_life().lit(Lamp::point(PointLight::from_color(LinearRgba::rgb(9.0, 4.0, 2.0)), Vec3::new(1.2, 1.6, 1.8)))
+    still_life().lit(Lamp::point(PointLight::new(LinearRgba::rgb(9.0, 4.0, 2.0)), Vec3::new(1.2, 1.6, 1.8)))
 }
 
 /// Panes before it, one of which is bright itself.

@@ -16,7 +16,7 @@ const SMOOTHLY: (&str, Intensity) = ("renormalise, smoothing 0.9", Intensity::Re
 /// An orange light, three times too bright for the sphere, in front of a grey background.
 fn spawn(world: &mut World, intensity: Intensity) {
     camera_of(world, intensity);
-    let light = DirectionalLight::from_color(LinearRgba::rgb(3.0, 1.5, 0.6));
+    let light = DirectionalLight::new(LinearRgba::rgb(3.0, 1.5, 0.6));
     world.spawn((light, Transform::default().looking_to(-Vec3::new(0.5, 0.2, 1.0), Vec3::Y)));
     let surface = Material { specular: LinearRgba::gray(0.5), ..Material::matte(LinearRgba::gray(0.9)) };
     show(world, UvSphere::new(1.0, 64, 32), surface, Shading::Phong);

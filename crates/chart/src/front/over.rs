@@ -76,7 +76,7 @@ impl Over {
             for i in 0..count {
                 let (sin, cos) = (TAU * i as f32 / count as f32).sin_cos();
                 let toward = Vec3::new(0.5 + around * cos, 0.7 + around * sin, 1.5).normalize();
-                let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::from_color(color) };
+                let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::new(color) };
                 world.spawn((light, Transform::from_translation(distance * toward)));
             }
         })

@@ -67,7 +67,7 @@ fn build(world: &mut World) -> Result<(), MeshError> {
     world.insert_resource(GlobalAmbient(LinearRgba::rgb(0.12, 0.12, 0.12)));
     world.spawn((Camera::default(), Transform::from_xyz(0.0, 0.4, 3.1).looking_at(Vec3::ZERO, Vec3::Y)));
     world.spawn((DirectionalLight::white(), Transform::default().looking_to(Vec3::new(0.6, -0.7, -1.0), Vec3::Y)));
-    let lamp = PointLight::from_color(LinearRgba::rgb(0.3, 0.25, 0.2));
+    let lamp = PointLight::new(LinearRgba::rgb(0.3, 0.25, 0.2));
     world.spawn((lamp, Transform::from_xyz(-1.5, 0.5, 1.5)));
     let mesh = world.resource_mut::<Assets<Mesh>>().add(stone_mesh(384, 192)?);
     let stone = Material { shininess: 16.0, ..Material::matte(LinearRgba::rgb(0.5, 0.45, 0.38)) };

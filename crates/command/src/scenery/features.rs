@@ -206,13 +206,11 @@ impl Feature {
         let at = Transform::from_xyz(1.2 * cos, 1.2 * sin, 2.5).looking_at(Vec3::ZERO, Vec3::Y);
         let color = LinearRgba::rgb(0.05, 0.05, 0.05);
         match self.lights {
-            FeatureLights::Directional(_) => commands.spawn((DirectionalLight::from_color(color), at)),
+            FeatureLights::Directional(_) => commands.spawn((DirectionalLight::new(color), at)),
             FeatureLights::Points(_, attenuation, range) => {
-                commands.spawn((PointLight { attenuation, range, ..PointLight::from_color(color) }, at))
+                commands.spawn((PointLight { attenuation, range, ..PointLight::new(color) }, at))
             }
-            FeatureLights::Spots(_, cone) => {
-                commands.spawn((SpotLight { light: PointLight::from_color(color), cone }, at))
-            }
+            FeatureLights::Spots(_, cone) => commands.spawn((SpotLight { light: PointLight::new(color), cone }, at)),
         };
     }
 }

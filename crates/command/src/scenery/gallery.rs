@@ -42,18 +42,18 @@ impl Scenery<'_, '_, '_> {
         }
         for i in 0..3_u8 {
             let start = TAU * f32::from(i) / 3.0;
-            let light = PointLight::from_color(hsv(f32::from(i) / 3.0, 0.4, 0.6));
+            let light = PointLight::new(hsv(f32::from(i) / 3.0, 0.4, 0.6));
             let center = Vec3::new((f32::from(i) - 1.0) * 9.0, 4.0, 0.0);
             self.commands.spawn((light, Circling { center, start }));
         }
-        let spot = SpotLight { light: PointLight::from_color(grey(1.5)), cone: Cone::new(0.6) };
+        let spot = SpotLight { light: PointLight::new(grey(1.5)), cone: Cone::new(0.6) };
         self.commands.spawn((spot, Transform::from_xyz(0.0, 8.0, 0.0).looking_at(Vec3::ZERO, Vec3::Z)));
     }
 
     pub(super) fn large_scan(&mut self) {
         self.camera(Vec3::new(0.0, 0.0, 2.5));
         self.two_suns();
-        let lamp = PointLight::from_color(LinearRgba::rgb(0.3, 0.25, 0.2));
+        let lamp = PointLight::new(LinearRgba::rgb(0.3, 0.25, 0.2));
         self.commands.spawn((lamp, Transform::from_xyz(-1.5, 0.5, 1.5)));
         // 2 · 1000 · (501 − 1) triangles.
         let mesh = Mesh3d(self.meshes.add(sound(stone_mesh(1000, 501))));

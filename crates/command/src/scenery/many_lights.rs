@@ -48,7 +48,7 @@ impl Plugin for ManyLights {
 
 impl ManyLights {
     fn spawn_lights(self, commands: &mut Commands) {
-        let dim = PointLight::from_color(LinearRgba::gray(0.05));
+        let dim = PointLight::new(LinearRgba::gray(0.05));
         for i in 0..self.touching {
             let (sin, cos) = (TAU * i as f32 / self.touching as f32).sin_cos();
             let at = Transform::from_xyz(0.4 * EDGE * cos, 0.3 * EDGE, 0.4 * EDGE * sin);

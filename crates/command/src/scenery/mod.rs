@@ -135,7 +135,7 @@ impl Scenery<'_, '_, '_> {
         ];
         for (position, [red, green, blue]) in tinted {
             for turn in turns.clone() {
-                let light = PointLight::from_color(LinearRgba::rgb(red, green, blue) * (0.5 * share));
+                let light = PointLight::new(LinearRgba::rgb(red, green, blue) * (0.5 * share));
                 self.commands.spawn((light, Transform::from_translation(turn * Vec3::from(position))));
             }
         }
@@ -181,7 +181,7 @@ impl Scenery<'_, '_, '_> {
             let light = PointLight {
                 attenuation: Attenuation::new(1.0, 0.0, 0.5),
                 range: Some(12.0),
-                ..PointLight::from_color(hsv(random(i, 4), 0.6, 1.0) * 2.0)
+                ..PointLight::new(hsv(random(i, 4), 0.6, 1.0) * 2.0)
             };
             let center =
                 Vec3::new(-90.0 + 180.0 * random(i, 0), 1.0 + 5.0 * random(i, 1), -90.0 + 180.0 * random(i, 2));
@@ -196,7 +196,7 @@ impl Scenery<'_, '_, '_> {
 
     fn sun(&mut self, intensity: f32, turn: Quat) {
         let from = Transform::from_translation(turn * Vec3::ONE).looking_at(Vec3::ZERO, Vec3::Y);
-        self.commands.spawn((DirectionalLight::from_color(grey(intensity)), from));
+        self.commands.spawn((DirectionalLight::new(grey(intensity)), from));
     }
 
     fn object(&mut self, mesh: impl Into<Mesh>, color: LinearRgba, at: Vec3) {

@@ -2,6 +2,7 @@
 
 use crate::lights::slots::Lists;
 use crate::lights::terms::by_fragment_shader;
+use halfway_lighting::lights::{Kind, KindSet};
 use halfway_lighting::record::Cull;
 use halfway_lighting::{Frequency, Terms};
 use halfway_texture::{Channel, FarNormals, LevelFilter, MapKind, Sampling, SolidKind, SurfaceMap, UvSet};
@@ -182,7 +183,7 @@ impl DrawKey {
     pub fn plain() -> Self {
         Self {
             blend: false,
-            lists: Lists::Counted([0, 1, 0]),
+            lists: Lists::Counted(1, KindSet::EMPTY.with(Kind::Point)),
             terms: Terms::both(Frequency::Fragment),
             per_instance: false,
             blinn_phong: true,

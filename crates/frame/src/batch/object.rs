@@ -157,22 +157,22 @@ impl Reflecting<'_> {
         let Shared { lights, viewer, .. } = shared;
         let [reflects_ambient, reflects_diffuse, reflects_specular] = look.reflects;
         let lit = lights.len() > 0;
-        let attenuated_ambient = lights.attenuated_ambient && reflects_ambient;
+        let attenuated_ambient = lights.needs.attenuated_ambient && reflects_ambient;
         let used = |used: bool, term: Frequency| if lit && used { term } else { Frequency::Never };
         let terms = Terms {
             diffuse: used(reflects_diffuse || attenuated_ambient, circumstances.terms.diffuse),
-            specular: used(lights.specular && reflects_specular, circumstances.terms.specular),
+            specular: used(lights.needs.highlights && reflects_specular, circumstances.terms.specular),
         };
         let key = DrawKey {
             blend: circumstances.blend,
-            lists: Lists::new(lights.counts),
+            lists: Lists::new(lights.len(), lights.kinds),
             terms,
             per_instance: false,
             blinn_phong: self.reflectance != Reflectance::Phong,
             local_viewer: viewer == Viewer::Local,
             attenuated_ambient,
-            shared_color: lights.shared_color,
-            ranged: lights.ranged,
+            shared_color: !lights.needs.own_specular,
+            ranged: lights.needs.range,
             squarings: look.squarings,
             geometric_fallback: circumstances.opposite_normals,
             cull: if self.faces == Faces::Both { Cull::None } else { Cull::Back },

@@ -57,7 +57,7 @@ impl LightLists {
         self.sent.begin(lights);
         self.few = SurfaceLights::default();
         if lights.len() <= COUNTED_LIGHTS as usize {
-            self.few.both.counts = lights.counts;
+            self.few.both.count = lights.len() as u32;
             self.numbers.extend((0..lights.len() as u32).map(|number| self.sent.place(lights, number)));
         }
         self.last = None;
@@ -74,7 +74,7 @@ impl LightLists {
         self.assigned += (diffuse.len() + specular.len()) as u64;
         self.left_out = left_out.iter().copied().fold(self.left_out, f64::max);
         let start = self.numbers.len();
-        let listed = append_terms(&mut self.numbers, lights.counts, listing.terms, [diffuse, specular]);
+        let listed = append_terms(&mut self.numbers, listing.terms, [diffuse, specular]);
         for number in &mut self.numbers[start..] {
             *number = self.sent.place(lights, *number);
         }
@@ -91,13 +91,8 @@ impl LightLists {
 }
 
 /// The lights of both terms. Those that have both are together where both are shaded in the same place, and so once.
-fn append_terms(
-    numbers: &mut Vec<u32>,
-    counts: [u32; 3],
-    terms: Terms,
-    [diffuse, specular]: [&[u32]; 2],
-) -> SurfaceLights {
-    let mut append = |lights: &mut dyn Iterator<Item = u32>| append(numbers, counts, lights);
+fn append_terms(numbers: &mut Vec<u32>, terms: Terms, [diffuse, specular]: [&[u32]; 2]) -> SurfaceLights {
+    let mut append = |lights: &mut dyn Iterator<Item = u32>| append(numbers, lights);
     let none = LightRange::default();
     if terms.diffuse != terms.specular {
         let (diffuse, specular) = (append(&mut diffuse.iter().copied()), append(&mut specular.iter().copied()));
@@ -123,19 +118,11 @@ fn without<'a>(lights: &'a [u32], others: &'a [u32]) -> impl Iterator<Item = &'a
     })
 }
 
-/// Appends lights, which are sorted by kind; how many of each, and where they begin.
-fn append(numbers: &mut Vec<u32>, counts: [u32; 3], lights: impl Iterator<Item = u32>) -> LightRange {
+/// Appends lights; where they begin, and how many.
+fn append(numbers: &mut Vec<u32>, lights: impl Iterator<Item = u32>) -> LightRange {
     let start = numbers.len();
     numbers.extend(lights);
-    let counts = split(&numbers[start..], counts).map(|of_kind| of_kind.len() as u32);
-    LightRange { counts, start: start as u32 }
-}
-
-/// Numbers of lights, which are sorted by kind, kind by kind; `counts` are those of all lights.
-fn split(numbers: &[u32], [directional, points, _]: [u32; 3]) -> [&[u32]; 3] {
-    let first_point = numbers.partition_point(|&light| light < directional);
-    let first_spot = numbers.partition_point(|&light| light < directional + points);
-    [&numbers[..first_point], &numbers[first_point..first_spot], &numbers[first_spot..]]
+    LightRange { start: start as u32, count: (numbers.len() - start) as u32 }
 }
 
 /// The same lights, had what was appended from `start` on been appended from 0 on.
@@ -182,7 +169,7 @@ impl Reflector {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use halfway_lighting::Faces;
+    use halfway_lighting::{DirectionalLight, Faces, PointLight, SpotLight};
 
     /// The list of a small sphere's diffuse terms at the fragments.
     fn list(lists: &mut LightLists, lights: &Lights, center: [f32; 3]) -> LightRange {
@@ -204,7 +191,7 @@ mod tests {
         // A second frame begins anew.
         for _ in 0..2 {
             lists.begin(&lights);
-            let two = |start| LightRange { counts: [0, 2, 0], start };
+            let two = |start| LightRange { start, count: 2 };
             assert_eq!(list(&mut lists, &lights, [75.0, 0.0, -1.0]), two(0));
             assert_eq!(list(&mut lists, &lights, [75.0, 0.0, -1.1]), two(0), "equal to the newest");
             assert_eq!(list(&mut lists, &lights, [85.0, 0.0, -1.0]), two(2));
@@ -216,7 +203,8 @@ mod tests {
 
     #[test]
     fn few_lights_are_all_sent_in_their_order() {
-        let lights = Lights::of_kinds([1, 2, 1]);
+        let (sun, lamp, spot) = (DirectionalLight::white(), PointLight::white(), SpotLight::default());
+        let lights = Lights::at_the_origin(&[sun.into(), lamp.into(), lamp.into(), spot.into()]);
         let mut lists = LightLists::default();
         lists.begin(&lights);
         assert_eq!(lists.sent.records, [0, 1, 2, 3].map(|number| lights.record(number)));

@@ -1,34 +1,43 @@
 //! How the lights of a draw reach its shader: all of the scene at fixed places, or by lists.
 
+use halfway_lighting::lights::KindSet;
+
 /// Up to this many lights in a scene are all shaded everywhere; of more, each patch has those that it needs.
 pub const COUNTED_LIGHTS: u32 = 8;
 
 /// How the lights reach the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Lists {
-    /// All lights of the scene, as many directional, point and spot lights as this, bound in this order.
-    Counted([u8; 3]),
-    /// Those that the record's lists name, of all that are bound.
+    /// All lights of the scene, so many and of these kinds.
+    Counted(u8, KindSet),
+    /// Those that the record's lists name, of all that are bound; of any kind.
     Listed,
 }
 
 impl Lists {
-    pub(crate) const NONE: Self = Self::Counted([0; 3]);
+    pub(crate) const NONE: Self = Self::Counted(0, KindSet::EMPTY);
 
-    /// For a scene with these numbers of directional, point and spot lights.
-    pub(crate) fn new(counts: [u32; 3]) -> Self {
-        if counts.iter().sum::<u32>() <= COUNTED_LIGHTS {
-            Self::Counted(counts.map(|count| count as u8))
-        } else {
-            Self::Listed
+    /// For a scene with so many lights, of these kinds.
+    pub(crate) fn new(count: usize, kinds: KindSet) -> Self {
+        match u8::try_from(count) {
+            Ok(few) if u32::from(few) <= COUNTED_LIGHTS => Self::Counted(few, kinds),
+            _ => Self::Listed,
         }
     }
 
-    /// How many directional, point and spot lights the pipeline knows of.
-    pub fn counts(self) -> [u8; 3] {
+    /// How many lights the pipeline knows of.
+    pub fn count(self) -> u8 {
         match self {
-            Self::Counted(counts) => counts,
-            Self::Listed => [0; 3],
+            Self::Counted(count, _) => count,
+            Self::Listed => 0,
+        }
+    }
+
+    /// The kinds of light that the pipeline draws.
+    pub fn kinds(self) -> KindSet {
+        match self {
+            Self::Counted(_, kinds) => kinds,
+            Self::Listed => KindSet::ALL,
         }
     }
 }

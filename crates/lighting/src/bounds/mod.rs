@@ -20,6 +20,7 @@
 //! | n·l | cos max(∠(k, l0) − α − al, 0), and cos max(arccos((H + t)/d) − α, 0), H the light's height over the patch's middle plane, t half its thickness | angles between directions obey the triangle inequality |
 //! | S of Blinn–Phong | cos^β max(∠(k, h0) − α − ah, 0), h0 = (l0 + v0)/‖l0 + v0‖, sin ah = (2 sin(al/2) + 2 sin(av/2))/‖l0 + v0‖ | l + v moves by at most the sum of the two chords |
 //! | S of Phong | cos^α max(∠(r0, v0) − 2α − al − av, 0), r0 = 2(k·l0)k − l0 | turning n by an angle turns r by twice that |
+//! | lerp(ground, sky, (1 + n·d)/2) | the larger of its values at cos max(∠(k, d) − α, 0) and −cos max(∠(k, −d) − α, 0), a channel by itself | it is linear in n·d |
 //!
 //! S is 0 where n·l can only be ≤ 0. Each factor is bounded by itself, so the bound of a term is reached only where one
 //! point of the patch is nearest, faces the light most and sees the highlight at once.
@@ -73,7 +74,7 @@ mod tolerance;
 mod tree;
 
 pub use patch::{NormalCone, Patch};
-pub use receiver::{MARGIN, Receiver, TermBounds};
+pub use receiver::{LitTerms, MARGIN, Receiver, TermBounds};
 pub use select::Selected;
 pub use tolerance::{STEP, linear_tolerance};
 pub use tree::LightTree;

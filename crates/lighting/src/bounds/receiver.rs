@@ -4,9 +4,9 @@ use super::Patch;
 use super::angle::{Angle, Cap, slack};
 use crate::equations::vector::{cross, dot, length, mul, neg, scale, sub};
 use crate::equations::{
-    COINCIDENT, Coefficients, ConeTerms, Eye, Light, Place, Real, attenuation, power, range_window, reflect,
-    specular_exponent, spot_factor,
+    COINCIDENT, Coefficients, ConeTerms, Eye, Real, power, reflect, specular_exponent, spot_factor,
 };
+use crate::lights::{Colors, Light, LightSource};
 use crate::{Faces, Reflectance};
 
 /// Relative margin of every bound. It covers the rounding of the factors that are not cosines: about 2·10⁻⁵ in `f32`,
@@ -34,10 +34,13 @@ impl<T: Real> TermBounds<T> {
 
 /// The terms of a light that may be above 0 somewhere on a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct LitTerms {
-    pub(super) ambient: bool,
-    pub(super) diffuse: bool,
-    pub(super) specular: bool,
+pub struct LitTerms {
+    /// The ambient term of a light that attenuates it.
+    pub ambient: bool,
+    /// The diffuse term.
+    pub diffuse: bool,
+    /// The specular term.
+    pub specular: bool,
 }
 
 /// A [`Patch`] with its material and its viewer, prepared for many lights.
@@ -70,7 +73,7 @@ enum Lobe<T> {
 
 /// Where a light is, seen from the middle of the patch.
 #[derive(Clone, Copy)]
-struct Offset<T> {
+pub(crate) struct Offset<T> {
     /// L − c; the unit vector l of a directional light.
     vector: [T; 3],
     square: T,
@@ -82,13 +85,21 @@ struct Offset<T> {
 }
 
 /// How a light arrives at the points of a patch.
-struct Arrival<T> {
+pub(crate) struct Arrival<T> {
     /// Every l.
     l: Cap<T>,
     /// The least angle between an l and the axis of the normals, known from the thickness; 0 where it tells nothing.
     rise: Angle<T>,
     /// The least distance from a point of the patch.
-    nearest: T,
+    pub(crate) nearest: T,
+}
+
+impl<T: Real> Arrival<T> {
+    /// The largest factor of a cone.
+    pub(crate) fn largest_spot(&self, cone: &ConeTerms<T>) -> T {
+        let cos = Angle::between(neg(self.l.axis), cone.direction).cos_within(self.l.spread);
+        spot_factor(cos, cone)
+    }
 }
 
 impl<T: Real> Receiver<T> {
@@ -125,30 +136,34 @@ impl<T: Real> Receiver<T> {
     /// largest term, because the sphere has places without surface, the factors are bounded one by one, and a patch
     /// seen from both sides takes the better side for each factor.
     pub fn bounds(&self, light: &Light<T>) -> TermBounds<T> {
+        light.bounds(self)
+    }
+
+    /// The bounds of the terms that may be lit, for a light with these colours that arrives so, with this weight at most.
+    #[inline]
+    pub(crate) fn bounds_of(
+        &self,
+        lit: LitTerms,
+        colors: &Colors<T>,
+        arrival: impl FnOnce() -> Arrival<T>,
+        weight: impl FnOnce(&Arrival<T>) -> T,
+    ) -> TermBounds<T> {
         let mut bounds = TermBounds::zero();
-        let lit = self.lit_terms(light);
         if lit == LitTerms::default() {
             return bounds;
         }
-        let (l, rise, weight) = match light.place {
-            Place::Directional(l) => (Cap::single(l), Angle::zero(), T::one()),
-            Place::Point(position) => {
-                let Arrival { l, rise, nearest } = self.arrival(position);
-                let window = light.range.map_or(T::one(), |range| range_window(nearest, range));
-                (l, rise, attenuation(light.attenuation, nearest) * window)
-            }
-        };
-        let spot = light.cone.as_ref().map_or(T::one(), |cone| largest_spot(&l, cone));
+        let arrival = arrival();
         // A product that left the number range is small, not 0.
-        let weight = (weight * spot).max(T::min_positive_value()) * (T::one() + T::of(MARGIN));
+        let weight = weight(&arrival).max(T::min_positive_value()) * (T::one() + T::of(MARGIN));
+        let Arrival { l, rise, .. } = arrival;
         if lit.ambient {
-            bounds.ambient = scale(mul(self.ka, light.la), weight);
+            bounds.ambient = scale(mul(self.ka, colors.la), weight);
         }
         if lit.diffuse || lit.specular {
             let facing = self.facing(&l, rise);
-            bounds.diffuse = scale(mul(self.kd, light.ld), weight * facing);
+            bounds.diffuse = scale(mul(self.kd, colors.ld), weight * facing);
             if lit.specular && facing > T::zero() {
-                bounds.specular = scale(mul(self.ks, light.ls), weight * self.highlight(&l));
+                bounds.specular = scale(mul(self.ks, colors.ls), weight * self.highlight(&l));
             }
         }
         bounds
@@ -160,69 +175,66 @@ impl<T: Real> Receiver<T> {
         (self.center, (self.radius + self.coincident * T::of(2.0)) * (T::one() + slack()))
     }
 
-    /// Finds the terms that may be above 0, by signs alone: no power, and seldom a root. That is the first step of a
-    /// bound, and all that a tolerance of 0 asks for.
-    ///
-    /// The tests are those of the second table at [`bounds`](crate::bounds), multiplied by D. A test fails only by more
-    /// than its rounding, and never with NaN.
-    pub(super) fn lit_terms(&self, light: &Light<T>) -> LitTerms {
-        let offset = match light.place {
-            Place::Directional(l) => {
-                Offset { vector: l, square: T::one(), radius: T::zero(), half_thickness: T::zero(), blur: slack() }
-            }
-            Place::Point(position) => {
-                let vector = sub(position, self.center);
-                let square = dot(vector, vector);
-                // Signs of sums that left the number range say nothing.
-                if !(square > T::min_positive_value() / T::epsilon() && square < T::max_value() * T::of(0.25)) {
-                    return self.colored_terms(light);
-                }
-                let blur = self.coincident + slack::<T>() * (norm1(vector) + self.radius);
-                Offset { vector, square, radius: self.radius, half_thickness: self.half_thickness, blur }
-            }
-        };
-        if self.is_out_of_range(light, &offset) {
-            return LitTerms::default();
+    // The terms that may be above 0 are found by signs alone: no power, and seldom a root. That is the first step of a
+    // bound, and all that a tolerance of 0 asks for. The tests are those of the second table at `bounds`, multiplied by
+    // D. A test fails only by more than its rounding, and never with NaN.
+
+    /// The way to a light whose l is the same everywhere.
+    pub(crate) fn offset_along(l: [T; 3]) -> Offset<T> {
+        Offset { vector: l, square: T::one(), radius: T::zero(), half_thickness: T::zero(), blur: slack() }
+    }
+
+    /// The way to a light at a position; `None` where its square leaves the number range.
+    #[inline]
+    pub(crate) fn offset_to(&self, position: [T; 3]) -> Option<Offset<T>> {
+        let vector = sub(position, self.center);
+        let square = dot(vector, vector);
+        if !(square > T::min_positive_value() / T::epsilon() && square < T::max_value() * T::of(0.25)) {
+            return None;
         }
-        let colored = self.colored_terms(light);
-        let faces = (colored.diffuse || colored.specular) && self.may_face(&offset);
-        let lit = LitTerms {
+        let blur = self.coincident + slack::<T>() * (norm1(vector) + self.radius);
+        Some(Offset { vector, square, radius: self.radius, half_thickness: self.half_thickness, blur })
+    }
+
+    /// Those of the terms that may be above 0 by the directions of the normals, the light and the viewer.
+    #[inline]
+    pub(crate) fn facing_terms(&self, offset: &Offset<T>, colored: LitTerms) -> LitTerms {
+        let faces = (colored.diffuse || colored.specular) && self.may_face(offset);
+        LitTerms {
             ambient: colored.ambient,
             diffuse: faces && colored.diffuse,
-            specular: faces && colored.specular && self.may_mirror(&offset),
-        };
-        if lit == LitTerms::default() || self.is_out_of_reach(light) { LitTerms::default() } else { lit }
+            specular: faces && colored.specular && self.may_mirror(offset),
+        }
     }
 
     /// The terms that neither the light nor the material makes black.
-    fn colored_terms(&self, light: &Light<T>) -> LitTerms {
+    #[inline]
+    pub(crate) fn colored_terms(&self, colors: &Colors<T>, attenuate_ambient: bool) -> LitTerms {
         let is_lit = |k: [T; 3], color: [T; 3]| (0..3).any(|c| k[c] * color[c] != T::zero());
         LitTerms {
-            ambient: light.attenuate_ambient && is_lit(self.ka, light.la),
-            diffuse: is_lit(self.kd, light.ld),
-            specular: is_lit(self.ks, light.ls),
+            ambient: attenuate_ambient && is_lit(self.ka, colors.la),
+            diffuse: is_lit(self.kd, colors.ld),
+            specular: is_lit(self.ks, colors.ls),
         }
     }
 
-    /// Whether the range of a light ends before the sphere.
-    fn is_out_of_range(&self, light: &Light<T>, offset: &Offset<T>) -> bool {
-        light.range.is_some_and(|range| {
-            let end = range.max(self.coincident) + self.radius;
-            offset.square * (T::one() - slack::<T>() * T::of(4.0)) > end * end
-        })
+    /// Whether a range ends before the sphere.
+    #[inline]
+    pub(crate) fn is_beyond(&self, range: T, offset: &Offset<T>) -> bool {
+        let end = range.max(self.coincident) + self.radius;
+        offset.square * (T::one() - slack::<T>() * T::of(4.0)) > end * end
     }
 
     /// Whether the range of a light ends before the slab of the patch, or its cone passes the patch by.
-    fn is_out_of_reach(&self, light: &Light<T>) -> bool {
-        let range = light.range.filter(|_| self.is_flat());
-        match light.place {
-            Place::Point(position) if range.is_some() || light.cone.is_some() => {
-                let arrival = self.arrival(position);
-                range.is_some_and(|range| arrival.nearest >= range)
-                    || light.cone.as_ref().is_some_and(|cone| largest_spot(&arrival.l, cone) == T::zero())
-            }
-            _ => false,
+    #[inline]
+    pub(crate) fn is_out_of_reach(&self, position: [T; 3], range: Option<T>, cone: Option<&ConeTerms<T>>) -> bool {
+        let range = range.filter(|_| self.is_flat());
+        if range.is_none() && cone.is_none() {
+            return false;
         }
+        let arrival = self.arrival(position);
+        range.is_some_and(|range| arrival.nearest >= range)
+            || cone.is_some_and(|cone| arrival.largest_spot(cone) == T::zero())
     }
 
     /// Whether n·(L − p) may be above 0 anywhere on the patch.
@@ -257,8 +269,13 @@ impl<T: Real> Receiver<T> {
         !(cos > T::zero() && along <= -sin - blur)
     }
 
+    /// How a light arrives whose l is the same everywhere.
+    pub(crate) fn arrival_along(l: [T; 3]) -> Arrival<T> {
+        Arrival { l: Cap::single(l), rise: Angle::zero(), nearest: T::zero() }
+    }
+
     /// How a light at `position` arrives.
-    fn arrival(&self, position: [T; 3]) -> Arrival<T> {
+    pub(crate) fn arrival(&self, position: [T; 3]) -> Arrival<T> {
         let offset = sub(position, self.center);
         let square = dot(offset, offset);
         let (l, distance) = Cap::toward(self.center, self.radius, position, offset, square);
@@ -330,16 +347,27 @@ impl<T: Real> Receiver<T> {
         if cos > T::zero() { peak.max(T::min_positive_value()) } else { peak }
     }
 
+    /// Whether the diffuse term gives back any of a colour.
+    pub(crate) fn reflects_diffuse(&self, color: [T; 3]) -> bool {
+        (0..3).any(|c| self.kd[c] * color[c] != T::zero())
+    }
+
+    /// The least and the largest n·d for a unit vector d, over the normals on the sides that are seen.
+    pub(crate) fn cosines_with(&self, d: [T; 3]) -> [T; 2] {
+        let most = |d| self.side(Angle::between(self.normals.axis, d)).cos_within(self.normals.spread);
+        [-most(neg(d)), most(d)]
+    }
+
+    /// The bounds of a light that brings at most this colour to the diffuse term, and nothing else.
+    pub(crate) fn diffuse_bounds(&self, color: [T; 3]) -> TermBounds<T> {
+        let diffuse = scale(mul(self.kd, color), T::one() + T::of(MARGIN));
+        TermBounds { diffuse, ..TermBounds::zero() }
+    }
+
     /// The angle from the nearer side's normals, for an angle from those of the front.
     fn side(&self, angle: Angle<T>) -> Angle<T> {
         if self.both_sides { angle.to_line() } else { angle }
     }
-}
-
-/// The largest factor of a cone for these l.
-fn largest_spot<T: Real>(l: &Cap<T>, cone: &ConeTerms<T>) -> T {
-    let cos = Angle::between(neg(l.axis), cone.direction).cos_within(l.spread);
-    spot_factor(cos, cone)
 }
 
 /// |x| + |y| + |z|: the length, or more.

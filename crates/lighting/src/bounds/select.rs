@@ -1,9 +1,9 @@
 //! Selects the lights of a patch: the one place where a tolerance is spent.
 
-use super::Receiver;
-use super::receiver::LitTerms;
+use super::{LitTerms, Receiver};
+use crate::equations::Real;
 use crate::equations::vector::add;
-use crate::equations::{Light, Real};
+use crate::lights::{Light, LightSource};
 
 /// The lights that a patch needs, term by term, and a bound of what the others would have added.
 ///
@@ -59,9 +59,9 @@ impl<T: Real> Receiver<T> {
         for (number, light) in lights {
             selected.evaluated += 1;
             if is_exact {
-                selected.keep_lit(number, self.lit_terms(light));
+                selected.keep_lit(number, light.lit_terms(self));
             } else {
-                let bounds = self.bounds(light);
+                let bounds = light.bounds(self);
                 selected.offer(number, false, add(bounds.ambient, bounds.diffuse), tolerance, shares);
                 selected.offer(number, true, bounds.specular, tolerance, shares);
             }

@@ -1,7 +1,7 @@
 //! A tree of many lights, which finds those whose range reaches a patch.
 
 use super::{Receiver, Selected};
-use crate::equations::{Light, Place};
+use crate::lights::{Light, LightSource};
 
 /// How many boxes are tested together.
 const WIDTH: usize = 8;
@@ -72,10 +72,7 @@ impl Aabb {
 
     /// The box around what the range of a light reaches, if it is finite.
     fn reached_by(light: &Light<f32>) -> Option<Self> {
-        match (light.place, light.range) {
-            (Place::Point(position), Some(range)) => Self::around(position, range * (1.0 + SLACK)),
-            _ => None,
-        }
+        light.reach().and_then(|(center, range)| Self::around(center, range * (1.0 + SLACK)))
     }
 
     fn join(self, other: Self) -> Self {
@@ -135,7 +132,7 @@ impl LightTree {
         let light = |key: u64| &lights[key as u32 as usize];
         let cells = [0, 1, 2].map(|k| 1023.0 / (all.high[k] - all.low[k]).max(f32::MIN_POSITIVE));
         for key in keys.iter_mut() {
-            let (Place::Point(position) | Place::Directional(position)) = light(*key).place;
+            let Some((position, _)) = light(*key).reach() else { continue };
             let cell = |k: usize| u64::from(spread(((position[k] - all.low[k]) * cells[k]) as u32)) << k;
             *key |= (cell(0) | cell(1) | cell(2)) << 32;
         }

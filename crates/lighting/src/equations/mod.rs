@@ -29,7 +29,6 @@
 
 mod encoding;
 mod environment;
-mod falloff;
 mod normal;
 mod reflectance;
 mod relief;
@@ -39,16 +38,20 @@ mod tone;
 mod transcendental;
 pub mod vector;
 
+pub use crate::lights::{
+    ATTENUATION_MAX, Colors, ConeTerms, Directional, Hemisphere, Light, Point, Spot, attenuation, range_window,
+    spot_factor,
+};
 pub use encoding::srgb_encoded;
 pub use environment::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
-pub use falloff::{ATTENUATION_MAX, ConeTerms, attenuation, range_window, spot_factor};
 pub use normal::{NORMAL_MIN, normal_matrix, transform_normal};
 pub use reflectance::{
     HALFWAY_MIN, axial_exponent, diffuse_term, face_forward, half_vector, interpolated_normal, power, reflect,
     side_normal, specular_blinn_phong, specular_exponent, specular_phong, specular_term,
 };
 pub use relief::{bumped_normal, lobe_axes, mapped_normal};
-pub use scene::{Coefficients, Eye, Light, Place, ShadedPoint, rgb};
+pub(crate) use scene::unit;
+pub use scene::{Coefficients, Eye, ShadedPoint, rgb};
 pub use shade::{
     COINCIDENT, GRAZING, Incidence, Irradiance, LightTerms, incidence, irradiance, light_contribution, light_terms,
     reflected, shade, view_vector,

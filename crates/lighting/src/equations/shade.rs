@@ -1,11 +1,10 @@
 //! The whole equation, from its parts.
 
 use super::Real;
-use super::falloff::{attenuation, range_window, spot_factor};
-use super::reflectance::{diffuse_term, specular_term};
-use super::scene::{Coefficients, Eye, Light, Place, ShadedPoint};
-use super::vector::{add, dot, length, mul, neg, scale, toward};
+use super::scene::{Coefficients, Eye, ShadedPoint};
+use super::vector::{add, mul, toward};
 use crate::Reflectance;
+use crate::lights::{Light, LightSource};
 
 /// A light counts as being at the lit point p where its distance is at most this share of ‖p‖: its direction is n and
 /// its distance 0 there. Positions in eye space, made by a matrix in `f32`, are known to about half of this share of
@@ -52,24 +51,10 @@ pub struct LightTerms<T> {
     pub specular: [T; 3],
 }
 
-/// Direction and strength of a light at a point. Where the light is at the point itself ([`COINCIDENT`]) l is n and the
-/// distance 0.
-pub fn incidence<T: Real>(surface: &ShadedPoint<T>, light: &Light<T>) -> Incidence<T> {
-    let least = T::of(GRAZING.into());
-    let (l, grazing, att) = match light.place {
-        Place::Directional(l) => (l, least, T::one()),
-        Place::Point(position) => {
-            let from_eye = length(surface.position);
-            let (l, d, grazing) = match toward(surface.position, position) {
-                (Some(l), d) if d > T::of(COINCIDENT.into()) * from_eye => (l, d, least + least * (from_eye / d)),
-                _ => (surface.normal, T::zero(), T::zero()),
-            };
-            let window = light.range.map_or(T::one(), |range| range_window(d, range));
-            (l, grazing, attenuation(light.attenuation, d) * window)
-        }
-    };
-    let spot = light.cone.as_ref().map_or(T::one(), |cone| spot_factor(dot(neg(l), cone.direction), cone));
-    Incidence { l, grazing, weight: att * spot }
+/// Direction and strength of a light at a point; `None` for light from all around. Where a light is at the point itself
+/// ([`COINCIDENT`]) l is n and the distance 0.
+pub fn incidence<T: Real>(surface: &ShadedPoint<T>, light: &Light<T>) -> Option<Incidence<T>> {
+    light.incidence(surface)
 }
 
 /// v: the unit vector from the surface toward the viewer. Where a local eye is at the surface itself v is n.
@@ -88,16 +73,7 @@ pub fn irradiance<T: Real>(
     reflectance: Reflectance,
     shininess: T,
 ) -> Irradiance<T> {
-    let n = surface.normal;
-    let v = view_vector(surface, view);
-    let Incidence { l, grazing, weight } = incidence(surface, light);
-    let ambient = if light.attenuate_ambient { weight } else { T::one() };
-    let weight = if dot(n, l) > grazing { weight } else { T::zero() };
-    Irradiance {
-        ambient: scale(light.la, ambient),
-        diffuse: scale(light.ld, weight * diffuse_term(n, l)),
-        specular: scale(light.ls, weight * specular_term(reflectance, n, l, v, shininess)),
-    }
+    light.irradiance(surface, view, reflectance, shininess)
 }
 
 /// What a material gives back of what lights bring: `ka·ambient + kd·diffuse + ks·specular`.

@@ -11,6 +11,21 @@ use halfway_lighting::{
 use crate::support::gray;
 
 #[test]
+fn builders_change_their_field_alone() {
+    let (red, grey) = (LinearRgba::rgb(1.0, 0.0, 0.0), gray(0.25));
+    let point = PointLight::new(bevy_color::Color::LinearRgba(red)).with_range(4.0).with_ambient(grey);
+    let expected = PointLight { ambient: grey, diffuse: red, specular: red, range: Some(4.0), ..PointLight::white() };
+    assert_eq!(point, expected);
+    assert_eq!(point.with_attenuation(Attenuation::NONE), PointLight { attenuation: Attenuation::NONE, ..expected });
+    let spot = SpotLight::new(red).with_range(4.0).with_ambient(grey).with_cutoff_degrees(180.0);
+    assert_eq!(spot, SpotLight { light: expected, cone: Cone::NONE });
+    let spot = spot.with_cutoff(0.5).with_inner_degrees(0.0).with_exponent(2.0);
+    assert_eq!(spot.cone, Cone { cutoff: 0.5, inner: Some(0.0), exponent: 2.0 });
+    let sun = DirectionalLight::new(red).with_ambient(grey);
+    assert_eq!(sun, DirectionalLight { ambient: grey, diffuse: red, specular: red });
+}
+
+#[test]
 fn defaults_are_the_scene_formats() {
     let light = PointLight::default();
     assert_eq!(light, PointLight::white());
@@ -44,7 +59,7 @@ fn everything_this_crate_builds_is_valid() {
     PointLight::white().validate().unwrap();
     SpotLight::white(0.0).validate().unwrap();
     SpotLight { cone: Cone::NONE, ..Default::default() }.validate().unwrap();
-    DirectionalLight::from_color(color).validate().unwrap();
+    DirectionalLight::new(color).validate().unwrap();
     GlobalAmbient::default().validate().unwrap();
     Attenuation::NONE.validate().unwrap();
     Attenuation::INVERSE_SQUARE.validate().unwrap();

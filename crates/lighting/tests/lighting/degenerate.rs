@@ -3,7 +3,7 @@
 use core::f32::consts::PI;
 
 use bevy_color::LinearRgba;
-use halfway_lighting::equations::{Coefficients, Eye, Light, Place, ShadedPoint, light_contribution, shade};
+use halfway_lighting::equations::{Coefficients, Directional, Eye, Light, ShadedPoint, light_contribution, shade};
 use halfway_lighting::homogeneous::{LightPlace, from_homogeneous};
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight};
 
@@ -34,7 +34,7 @@ fn no_lights_leave_emission_and_ambient() {
 #[test]
 fn black_lights_are_no_lights() {
     let material = distinct_material(10.0);
-    let black = PointLight::from_color(LinearRgba::BLACK).at([1.0, 2.0, 0.0]);
+    let black = PointLight::new(LinearRgba::BLACK).at([1.0, 2.0, 0.0]);
     for surface in surfaces() {
         let dark = shade_dark(&surface, &material, &[], &VIEW, Reflectance::BlinnPhong);
         assert_eq!(shade_dark(&surface, &material, &[black; 3], &VIEW, Reflectance::BlinnPhong), dark);
@@ -106,8 +106,8 @@ fn a_cutoff_of_pi_is_a_point_light() {
 fn w_of_zero_is_directional() {
     let place = from_homogeneous([0.0, 3.0, 4.0, 0.0].into()).expect("a direction");
     let LightPlace::Directional(toward) = place else { panic!("w = 0 gave {place:?}") };
-    let from_w =
-        Light { place: Place::Directional(toward.to_array().map(f64::from)), ..PointLight::white().at([0.0; 3]) };
+    let Light::Point(lamp) = PointLight::white().at([0.0; 3]) else { panic!("a point") };
+    let from_w = Light::Directional(Directional { toward: toward.to_array().map(f64::from), colors: lamp.colors });
     let sun = DirectionalLight::white().along([0.0, -3.0, -4.0]).expect("a direction");
     let material = Coefficients::from(&distinct_material(10.0));
     for surface in surfaces() {

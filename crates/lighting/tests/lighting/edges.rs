@@ -4,8 +4,7 @@ use core::f32::consts::FRAC_PI_2;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::{
-    Coefficients, ConeTerms, Eye, Light, Place, ShadedPoint, interpolated_normal, normal_matrix, shade,
-    transform_normal,
+    Coefficients, Eye, Light, ShadedPoint, interpolated_normal, normal_matrix, shade, transform_normal,
 };
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, Reflectance, SpotLight};
 
@@ -141,7 +140,7 @@ fn every_edge_has_its_value() {
         for &reflectance in reflectances {
             let double = shade(&surface, &Coefficients::from(&material), &[light], [0.0; 3], &view, reflectance);
             close3(double, [expected; 3], expected * 1e-14, &format!("{name}, {reflectance:?}"));
-            let (surface, light, view) = (surface_in_f32(&surface), light_in_f32(&light), view_in_f32(&view));
+            let (surface, light, view) = (surface_in_f32(&surface), light.cast(), view_in_f32(&view));
             let single = shade(&surface, &Coefficients::from(&material), &[light], [0.0; 3], &view, reflectance);
             // A handful of roundings; the cosine of 80° went through f32.
             close3(to_f64(single), [expected; 3], expected * 1e-6, &format!("{name}, {reflectance:?}, f32"));
@@ -157,27 +156,6 @@ fn view_in_f32(view: &Eye<f64>) -> Eye<f32> {
     match *view {
         Eye::Local(eye) => Eye::Local(to_f32(eye)),
         Eye::Infinite(v) => Eye::Infinite(to_f32(v)),
-    }
-}
-
-fn light_in_f32(light: &Light<f64>) -> Light<f32> {
-    Light {
-        place: match light.place {
-            Place::Point(p) => Place::Point(to_f32(p)),
-            Place::Directional(l) => Place::Directional(to_f32(l)),
-        },
-        la: to_f32(light.la),
-        ld: to_f32(light.ld),
-        ls: to_f32(light.ls),
-        attenuation: to_f32(light.attenuation),
-        range: light.range.map(|x| x as f32),
-        cone: light.cone.map(|cone| ConeTerms {
-            direction: to_f32(cone.direction),
-            cos_cutoff: cone.cos_cutoff as f32,
-            cos_inner: cone.cos_inner.map(|x| x as f32),
-            exponent: cone.exponent as f32,
-        }),
-        attenuate_ambient: light.attenuate_ambient,
     }
 }
 

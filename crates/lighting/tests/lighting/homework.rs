@@ -18,7 +18,7 @@ fn lerp(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
 
 /// The red channel of the ten points: Gouraud, Phong.
 fn by_the_library() -> Vec<([f64; 3], [f64; 3])> {
-    let light = DirectionalLight::from_color(LinearRgba::rgb(1.0, 0.5, 0.5)).along(L.map(|x| -x)).expect("a direction");
+    let light = DirectionalLight::new(LinearRgba::rgb(1.0, 0.5, 0.5)).along(L.map(|x| -x)).expect("a direction");
     let red = Coefficients::from(&Material::matte(LinearRgba::RED));
     let color = |position, normal| {
         let surface = ShadedPoint { position, normal };

@@ -65,7 +65,7 @@ fn a_hundred_thousand_lights_at_the_limit_stay_finite() {
         attenuation: Attenuation::INVERSE_SQUARE,
         ambient: brightest,
         attenuate_ambient: true,
-        ..PointLight::from_color(brightest)
+        ..PointLight::new(brightest)
     };
     let material = Coefficients::from(&Material { specular: brightest, ..Material::matte(brightest) });
     let surface = ShadedPoint { position: [0f32; 3], normal: [0.0, 0.0, 1.0] };

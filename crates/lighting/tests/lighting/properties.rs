@@ -153,7 +153,7 @@ fn ordinary() -> impl Strategy<Value = Case> {
             let (ambient, diffuse, range, attenuate_ambient) = light;
             Case {
                 material,
-                light: PointLight { ambient, range, attenuate_ambient, ..PointLight::from_color(diffuse) },
+                light: PointLight { ambient, range, attenuate_ambient, ..PointLight::new(diffuse) },
                 kind,
                 place,
                 direction: core::array::from_fn(|i| position[i] - place[i] + nudge[i]),

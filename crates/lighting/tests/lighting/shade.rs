@@ -4,17 +4,23 @@ use core::f64::consts::FRAC_1_SQRT_2;
 
 use bevy_color::LinearRgba;
 use halfway_lighting::equations::{
-    Coefficients, Eye, GRAZING, Incidence, Light, LightTerms, Place, ShadedPoint, incidence, light_contribution,
+    Coefficients, Eye, GRAZING, Incidence, Light, LightTerms, ShadedPoint, Spot, incidence, light_contribution,
     light_terms, shade, view_vector,
 };
 use halfway_lighting::{
-    Attenuation, Cone, DirectionalLight, GlobalAmbient, Material, PointLight, Reflectance, SpotLight, Viewer,
+    Attenuation, Cone, DirectionalLight, GlobalAmbient, HemisphereLight, Material, PointLight, Reflectance, SpotLight,
+    Viewer,
 };
 
 use crate::support::{close, close3, distinct_material};
 
 /// A point at the origin facing +Z.
 const SURFACE: ShadedPoint<f64> = ShadedPoint { position: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+
+/// How a light arrives at the surface that does not come from all around.
+fn arriving(light: &Light<f64>) -> Incidence<f64> {
+    incidence(&SURFACE, light).expect("a direction")
+}
 const VIEW: Eye<f64> = Eye::Infinite([0.0, 0.0, 1.0]);
 
 /// At (3, 0, 4): d = 5, l = (0.6, 0, 0.8), n·l = 0.8, r·v = 0.8, n·h = 3/√10; attenuation 1/(1 + 5·0.2 + 25·0.08) =
@@ -79,13 +85,13 @@ fn attenuated_ambient_is_opengls() {
 fn strength_on_arrival_is_a_product() {
     let window = (1.0 - 0.5f64.powi(4)).powi(2);
     let ranged = PointLight { range: Some(10.0), ..light() };
-    let Incidence { l, weight, .. } = incidence(&SURFACE, &ranged.at(PLACE));
+    let Incidence { l, weight, .. } = arriving(&ranged.at(PLACE));
     close3(l, [0.6, 0.0, 0.8], 1e-15, "l");
     close(weight, 0.25 * window, F32_CONSTANTS, "attenuation times window");
     // The axis points from the light straight down: cos φ = 0.8, squared by the exponent.
     let spot = SpotLight { light: ranged, cone: Cone { cutoff: 1.0, inner: None, exponent: 2.0 } };
     let spot = spot.at(PLACE, [0.0, 0.0, -3.0]).expect("a direction");
-    close(incidence(&SURFACE, &spot).weight, 0.25 * window * 0.64, F32_CONSTANTS, "times cone");
+    close(arriving(&spot).weight, 0.25 * window * 0.64, F32_CONSTANTS, "times cone");
 }
 
 #[test]
@@ -150,7 +156,7 @@ fn a_light_at_the_lit_point_is_finite() {
     let material = Coefficients::from(&Material::plastic(LinearRgba::WHITE));
     for (attenuation, weight) in [(Attenuation::NONE, 1.0), (Attenuation::INVERSE_SQUARE, 1e6)] {
         let here = PointLight { attenuation, ..PointLight::white() }.at(SURFACE.position);
-        let Incidence { l, weight: got, .. } = incidence(&SURFACE, &here);
+        let Incidence { l, weight: got, .. } = arriving(&here);
         assert_eq!(l, SURFACE.normal, "l falls back to n");
         close(got, weight, weight * 1e-12, "1/a, or the cap");
         let color = light_contribution(&SURFACE, &material, &here, &VIEW, Reflectance::BlinnPhong);
@@ -186,20 +192,41 @@ fn a_light_in_the_plane_of_the_surface_is_behind_it() {
 }
 
 #[test]
+fn a_hemisphere_is_a_mixture_by_the_normal() {
+    let light = HemisphereLight::new(LinearRgba::rgb(0.8, 0.4, 0.2), LinearRgba::rgb(0.1, 0.2, 0.6));
+    let material = Coefficients::from(&Material { diffuse: LinearRgba::rgb(0.5, 0.5, 0.5), ..Material::default() });
+    for (normal, sky) in
+        [([0.0, 1.0, 0.0], 1.0), ([0.6, 0.8, 0.0], 0.9), ([1.0, 0.0, 0.0], 0.5), ([0.0, -1.0, 0.0], 0.0)]
+    {
+        let surface = ShadedPoint { normal, ..SURFACE };
+        let light = light.toward([0.0, 3.0, 0.0]).expect("a direction");
+        assert_eq!(incidence(&surface, &light), None, "it comes from all around");
+        let terms = light_terms(&surface, &material, &light, &VIEW, Reflectance::Phong);
+        let expected = [(0.8, 0.1), (0.4, 0.2), (0.2, 0.6)].map(|(a, b)| 0.5 * (a * sky + b * (1.0 - sky)));
+        close3(terms.diffuse, expected, 1e-7, "the mixture");
+        assert_eq!((terms.ambient, terms.specular), ([0.0; 3], [0.0; 3]));
+    }
+}
+
+#[test]
 fn components_keep_their_values_on_the_way_in() {
     let spot = SpotLight {
         light: PointLight { range: Some(7.0), attenuate_ambient: true, ..light() },
         cone: Cone { cutoff: 0.0, inner: Some(0.0), exponent: 6.0 },
     };
     let got: Light<f32> = spot.at([1.0, 2.0, 3.0], [0.0, -2.0, 0.0]).expect("a direction");
-    assert_eq!(got.place, Place::Point([1.0, 2.0, 3.0]));
-    assert_eq!((got.la, got.ld, got.ls), ([0.5, 0.25, 0.125], [1.0, 2.0, 3.0], [4.0, 0.5, 8.0]));
-    assert_eq!((got.attenuation, got.range, got.attenuate_ambient), ([1.0, 0.2, 0.08], Some(7.0), true));
-    let cone = got.cone.expect("a cone");
+    let Light::Spot(Spot { point, cone }) = got else { panic!("{got:?} is no spot") };
+    assert_eq!(point.position, [1.0, 2.0, 3.0]);
+    assert_eq!(
+        (point.colors.la, point.colors.ld, point.colors.ls),
+        ([0.5, 0.25, 0.125], [1.0, 2.0, 3.0], [4.0, 0.5, 8.0])
+    );
+    assert_eq!((point.attenuation, point.range, point.attenuate_ambient), ([1.0, 0.2, 0.08], Some(7.0), true));
     assert_eq!((cone.direction, cone.cos_cutoff, cone.cos_inner), ([0.0, -1.0, 0.0], 1.0, Some(1.0)));
     assert_eq!(cone.exponent, 6.0);
     let sun: Light<f32> = DirectionalLight::white().along([0.0, -4.0, 0.0]).expect("a direction");
-    assert_eq!(sun.place, Place::Directional([0.0, 1.0, 0.0]), "toward the light: against its rays");
+    let Light::Directional(sun) = sun else { panic!("{sun:?} is no sun") };
+    assert_eq!(sun.toward, [0.0, 1.0, 0.0], "toward the light: against its rays");
     assert_eq!(GlobalAmbient(LinearRgba::rgb(1.0, 2.0, 3.0)).ga::<f64>(), [1.0, 2.0, 3.0]);
 }
 

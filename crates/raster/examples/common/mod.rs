@@ -1,5 +1,6 @@
 //! Scenes S1 and S4 of the project's benchmarks, as plain data.
 
+use halfway_lighting::lights::Kind;
 use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
 use halfway_lighting::{Frequency, Samples, Terms};
 use halfway_mesh::{Mesh, UvSphere};
@@ -107,6 +108,7 @@ pub(crate) fn sphere(small: bool, shading: Shading) -> Result<Scene, RasterError
         ..LightRecord::default()
     };
     let point = |position: [f32; 3], color: [f32; 3]| LightRecord {
+        kind: Kind::Point as u32,
         position: [position[0], position[1], position[2] - 3.0],
         linear: 0.09,
         quadratic: 0.032,
@@ -114,17 +116,18 @@ pub(crate) fn sphere(small: bool, shading: Shading) -> Result<Scene, RasterError
         specular: color.map(|x| 0.5 * x),
         ..LightRecord::default()
     };
-    let (lights, counts) = if small {
-        (vec![from_the_side(0.9)], [1, 0, 0])
+    let lights = if small {
+        vec![from_the_side(0.9)]
     } else {
         let points = [
             point([2.0, 0.0, 2.0], [1.0, 0.9, 0.8]),
             point([-2.0, 1.0, 1.5], [0.8, 0.9, 1.0]),
             point([0.0, -2.0, 2.0], [0.9, 1.0, 0.9]),
         ];
-        ([vec![from_the_side(0.6)], points.to_vec()].concat(), [1, 3, 0])
+        [vec![from_the_side(0.6)], points.to_vec()].concat()
     };
-    let lights_of_all = SurfaceLights { both: LightRange { counts, start: 0 }, ..SurfaceLights::default() };
+    let lights_of_all =
+        SurfaceLights { both: LightRange { start: 0, count: lights.len() as u32 }, ..SurfaceLights::default() };
     let front = MaterialRecord {
         base: [0.08, 0.03, 0.02],
         diffuse: [0.8, 0.3, 0.2],

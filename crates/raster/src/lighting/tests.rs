@@ -7,7 +7,8 @@ use crate::width::{VectorWidth, with_vectors};
 use fastrand::Rng;
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
-    self, Coefficients, ConeTerms, Eye, Light, Place, ShadedPoint, face_forward, vector::normalize,
+    self, Coefficients, Colors, ConeTerms, Directional, Eye, Hemisphere, Light, Point, ShadedPoint, Spot, face_forward,
+    vector::normalize,
 };
 
 /// One lane's input.
@@ -20,13 +21,6 @@ struct Case {
     exponent: f32,
     reflectance: Reflectance,
     local_viewer: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
-    Directional,
-    Point,
-    Spot,
 }
 
 fn within(random: &mut Rng, low: f32, high: f32) -> f32 {
@@ -44,7 +38,7 @@ fn direction(random: &mut Rng) -> [f32; 3] {
 
 fn random_case(random: &mut Rng) -> Case {
     let p = [within(random, -2.0, 2.0), within(random, -2.0, 2.0), within(random, -9.0, -0.5)];
-    let kind = [Kind::Directional, Kind::Point, Kind::Spot][(random.f32() * 3.0) as usize];
+    let kind = Kind::ALL[(random.f32() * Kind::ALL.len() as f32) as usize];
     let toward = direction(random);
     let far = within(random, 0.1, 4.0);
     let position = [0, 1, 2].map(|axis| p[axis] + far * toward[axis]);
@@ -58,7 +52,7 @@ fn random_case(random: &mut Rng) -> Case {
         p,
         n: direction(random),
         light: LightRecord {
-            position: if kind == Kind::Directional { toward } else { position },
+            position: if matches!(kind, Kind::Directional | Kind::Hemisphere) { toward } else { position },
             inverse_range: if random.f32() < 0.5 { 0.0 } else { 1.0 / within(random, 0.5, 5.0) },
             constant: within(random, 0.1, 1.0),
             linear: within(random, 0.0, 1.0),
@@ -97,22 +91,29 @@ fn expected(case: &Case) -> [f64; 3] {
     let f = |v: [f32; 3]| v.map(f64::from);
     let light = &case.light;
     let [fade, offset] = [light.inner_scale, light.inner_offset].map(f64::from);
-    let cone = (case.kind == Kind::Spot).then(|| ConeTerms {
-        direction: f(light.direction),
-        cos_cutoff: f64::from(light.cos_cutoff),
-        cos_inner: (fade > 0.0).then(|| (1.0 - offset) / fade),
-        exponent: f64::from(light.exponent),
-    });
-    let directional = case.kind == Kind::Directional;
-    let source = Light {
-        place: if directional { Place::Directional(f(light.position)) } else { Place::Point(f(light.position)) },
-        la: f(light.ambient),
-        ld: f(light.diffuse),
-        ls: f(light.specular),
+    let colors = Colors { la: f(light.ambient), ld: f(light.diffuse), ls: f(light.specular) };
+    let point = Point {
+        position: f(light.position),
+        colors,
         attenuation: f([light.constant, light.linear, light.quadratic]),
         range: (light.inverse_range > 0.0).then(|| 1.0 / f64::from(light.inverse_range)),
-        cone,
         attenuate_ambient: true,
+    };
+    let source = match case.kind {
+        Kind::Directional => Light::Directional(Directional { toward: f(light.position), colors }),
+        Kind::Hemisphere => {
+            Light::Hemisphere(Hemisphere { up: f(light.position), sky: f(light.diffuse), ground: f(light.specular) })
+        }
+        Kind::Point => Light::Point(point),
+        Kind::Spot => Light::Spot(Spot {
+            point,
+            cone: ConeTerms {
+                direction: f(light.direction),
+                cos_cutoff: f64::from(light.cos_cutoff),
+                cos_inner: (fade > 0.0).then(|| (1.0 - offset) / fade),
+                exponent: f64::from(light.exponent),
+            },
+        }),
     };
     let material = Coefficients {
         ka: f(SIDE.ambient),
@@ -131,10 +132,10 @@ fn shaded<S: Simd>(simd: S, case: &Case) -> [[f32; MOST_LANES]; 3] {
     let (p, n) = (splat3(simd, case.p), splat3(simd, case.n));
     let points = Points::new(simd, p, n, to_viewer(simd, p, n, case.local_viewer));
     let gloss = Gloss::new(case.reflectance, case.exponent);
-    let counts = [Kind::Directional, Kind::Point, Kind::Spot].map(|kind| u32::from(kind == case.kind));
-    let lights = SurfaceLights { both: LightRange { counts, start: 0 }, ..SurfaceLights::default() };
+    let light = LightRecord { kind: case.kind as u32, ..case.light };
+    let lights = SurfaceLights { both: LightRange { start: 0, count: 1 }, ..SurfaceLights::default() };
     let both = ShadedTerms { diffuse: true, specular: true };
-    let terms = gathered(simd, (&[case.light], &[0]), &lights, &points, gloss, both);
+    let terms = gathered(simd, (&[light], &[0]), &lights, &points, gloss, both);
     let color = reflected(simd, &terms, &SIDE);
     let mut lanes = [[0.0; MOST_LANES]; 3];
     for c in 0..3 {
@@ -158,6 +159,7 @@ fn is_on_an_edge(case: &Case) -> bool {
     // Either side of these is right: n·l = 0, and φ = cutoff.
     let f = |v: [f32; 3]| v.map(f64::from);
     let to_light = match case.kind {
+        Kind::Hemisphere => return false,
         Kind::Directional => f(case.light.position),
         _ => [0, 1, 2].map(|axis| f64::from(case.light.position[axis]) - f64::from(case.p[axis])),
     };

@@ -1,6 +1,7 @@
 //! The same bits on every width and thread count, and on every machine.
 
 use crate::common::{Scene, Shading, at, draw, pieces, sphere};
+use halfway_lighting::lights::Kind;
 use halfway_lighting::record::{Cull, InstanceRecord, LightRecord};
 use halfway_lighting::{Frequency, Reflectance, Samples, Terms};
 use halfway_mesh::{Mesh, Plane};
@@ -82,6 +83,7 @@ fn floor_and_glass(samples: Samples, pixels: PixelFormat) -> Scene {
     surface.front.shininess = 13.7;
     scene.surfaces.push(surface);
     scene.lights.push(LightRecord {
+        kind: Kind::Spot as u32,
         position: [0.5, 1.5, -2.0],
         constant: 0.5,
         linear: 0.1,
@@ -99,7 +101,7 @@ fn floor_and_glass(samples: Samples, pixels: PixelFormat) -> Scene {
     });
     scene.lists = vec![0, 1];
     for surface in &mut scene.surfaces {
-        surface.lights.both.counts = [1, 0, 1];
+        surface.lights.both.count = 2;
     }
     let turned = InstanceRecord {
         surface: 1,

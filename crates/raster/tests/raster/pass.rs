@@ -2,7 +2,7 @@
 
 use crate::common::{Scene, Shading, at, draw, lens, sphere};
 use halfway_lighting::Samples;
-use halfway_lighting::record::{Cull, MaterialRecord, SurfaceRecord};
+use halfway_lighting::record::{Cull, LightRecord, MaterialRecord, SurfaceRecord};
 use halfway_raster::{
     ClearTiles, DrawCall, LARGEST_SIDE, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer,
     TriangleOrder, VectorWidth, VertexLists,
@@ -205,7 +205,7 @@ fn refusal(scene: &Scene) -> RasterError {
 #[test]
 fn what_is_wrong_is_refused_and_named() {
     type Spoil = fn(&mut Scene);
-    let cases: [(&str, Spoil); 9] = [
+    let cases: [(&str, Spoil); 10] = [
         ("each side must be", |scene| scene.size = [LARGEST_SIDE + 1, 4]),
         ("each side must be", |scene| scene.size = [0, 4]),
         ("clear is NaN", |scene| scene.clear[1] = f32::NAN),
@@ -214,7 +214,8 @@ fn what_is_wrong_is_refused_and_named() {
         ("base is -1", |scene| scene.surfaces[0].front.base[2] = -1.0),
         ("opacity is 1.5", |scene| scene.surfaces[0].back.opacity = 1.5),
         ("surface reaches to 8", |scene| scene.instances[0].surface = 7),
-        ("both reaches to 3", |scene| scene.surfaces[0].lights.both.counts = [1, 1, 1]),
+        ("both reaches to 3", |scene| scene.surfaces[0].lights.both.count = 3),
+        ("kind is 99", |scene| scene.lights.push(LightRecord { kind: 99, ..LightRecord::default() })),
     ];
     for (message, spoil) in cases {
         let mut scene = squares(&[(2.0, RED, 1.0)], false);

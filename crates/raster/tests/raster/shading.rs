@@ -2,8 +2,10 @@
 
 use crate::common::{Scene, Shading, at, draw, lens, pieces};
 use halfway_lighting::equations::{
-    Coefficients, ConeTerms, Eye, Light, Place, ShadedPoint, normal_matrix, shade, transform_normal, vector,
+    Coefficients, Colors, ConeTerms, Directional, Eye, Light, Point, ShadedPoint, Spot, normal_matrix, shade,
+    transform_normal, vector,
 };
+use halfway_lighting::lights::Kind;
 use halfway_lighting::record::{
     Cull, InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord,
 };
@@ -35,6 +37,7 @@ fn lights() -> Vec<LightRecord> {
     vec![
         LightRecord { position: [c, c, c], ..plain },
         LightRecord {
+            kind: Kind::Point as u32,
             position: [-1.5, 1.0, -1.0],
             constant: 0.4,
             linear: 0.1,
@@ -44,6 +47,7 @@ fn lights() -> Vec<LightRecord> {
             ..plain
         },
         LightRecord {
+            kind: Kind::Spot as u32,
             position: [0.3, -0.4, -0.4],
             direction: [-0.1, 0.124_89, -0.987_12],
             cos_cutoff: 0.85,
@@ -67,7 +71,7 @@ fn case(shading: Shading, reflectance: Reflectance) -> Case {
         opacity: 1.0,
         ..MaterialRecord::default()
     };
-    let both = LightRange { counts: [1, 1, 1], start: 0 };
+    let both = LightRange { start: 0, count: 3 };
     let mut call = draw(&ready, 1, shading);
     call.reflectance = reflectance;
     let scene = Scene {
@@ -133,24 +137,24 @@ impl Case {
     fn sources(&self) -> Vec<Light<f64>> {
         let source = |(number, light): (usize, &LightRecord)| {
             let [fade, offset] = [light.inner_scale, light.inner_offset].map(f64::from);
-            Light {
-                place: if number == 0 {
-                    Place::Directional(f(light.position))
-                } else {
-                    Place::Point(f(light.position))
-                },
-                la: f(light.ambient),
-                ld: f(light.diffuse),
-                ls: f(light.specular),
+            let colors = Colors { la: f(light.ambient), ld: f(light.diffuse), ls: f(light.specular) };
+            let point = Point {
+                position: f(light.position),
+                colors,
                 attenuation: f([light.constant, light.linear, light.quadratic]),
                 range: (light.inverse_range > 0.0).then(|| 1.0 / f64::from(light.inverse_range)),
-                cone: (number == 2).then(|| ConeTerms {
-                    direction: f(light.direction),
-                    cos_cutoff: f64::from(light.cos_cutoff),
-                    cos_inner: (fade > 0.0).then(|| (1.0 - offset) / fade),
-                    exponent: f64::from(light.exponent),
-                }),
-                attenuate_ambient: number > 0,
+                attenuate_ambient: true,
+            };
+            let cone = ConeTerms {
+                direction: f(light.direction),
+                cos_cutoff: f64::from(light.cos_cutoff),
+                cos_inner: (fade > 0.0).then(|| (1.0 - offset) / fade),
+                exponent: f64::from(light.exponent),
+            };
+            match number {
+                0 => Light::Directional(Directional { toward: f(light.position), colors }),
+                1 => Light::Point(point),
+                _ => Light::Spot(Spot { point, cone }),
             }
         };
         self.scene.lights.iter().enumerate().map(source).collect()
@@ -344,7 +348,7 @@ fn the_check_finds_an_exponent_that_is_one_percent_off() {
 #[should_panic(expected = "without a light")]
 fn the_check_finds_a_light_that_is_left_out() {
     let mut case = case(Shading::Gouraud, Reflectance::Phong);
-    case.scene.surfaces[0].lights.both.counts = [1, 1, 0];
+    case.scene.surfaces[0].lights.both.count = 2;
     let picture = case.picture();
     case.judge("without a light", &picture);
 }

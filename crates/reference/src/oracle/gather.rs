@@ -6,10 +6,10 @@ use bevy_math::UVec2;
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_asset::Assets;
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
+use halfway_lighting::lights::{LightFrame, LightQueries, LightSource};
 use halfway_lighting::{
-    BackMaterial, Blend, Camera, DirectionalLight, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Mask,
-    Material, PointLight, Propagation, Reflectance, Samples, Shading, Shown, SpotLight, Terms, VertexColors,
-    light_direction, light_position, propagation,
+    BackMaterial, Blend, Camera, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Mask, Material, Propagation,
+    Reflectance, Samples, Shading, Shown, Terms, VertexColors, light_direction, light_position, light_up, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{Maps, Pyramid, SolidTexture, SurfaceMap, Texture};
@@ -90,42 +90,39 @@ fn lights(world: &mut World, view: &PictureView) -> Result<(Color, Vec<Light<f64
     let global = world.get_resource::<GlobalAmbient>().copied().unwrap_or_default();
     global.validate().map_err(|source| OracleError::Invalid { entity: "resource".into(), source })?;
 
-    let position = |at: &GlobalTransform| light_position(at).map(|p| view.eye_from_point(p.as_dvec3()).to_array());
-    // What the light is asked for in f32 says whether there is a direction; the direction itself is taken in f64.
-    let direction = |at: &GlobalTransform| {
-        light_direction(at).map(|_| view.eye_from_direction(-affine(at).matrix3.z_axis).to_array())
-    };
-    let mut lights = each(world, |light: &DirectionalLight, at| {
-        light.validate()?;
-        light.along(direction(at)?)
-    })?;
-    lights.extend(each(world, |light: &PointLight, at| {
-        light.validate()?;
-        Ok(light.at(position(at)?))
-    })?);
-    lights.extend(each(world, |spot: &SpotLight, at| {
-        spot.validate()?;
-        if spot.cone.is_none() { Ok(spot.light.at(position(at)?)) } else { spot.at(position(at)?, direction(at)?) }
-    })?);
-    let steady = lights.iter().filter(|light| !light.attenuate_ambient);
-    Ok((steady.fold(global.ga(), |sum, light| add(sum, light.la)), lights))
+    let (mut lights, mut refused) = (Vec::new(), None);
+    let mut queries = SystemState::<LightQueries>::new(world);
+    queries.get(world).expect(ALWAYS).visit(|entity, name, light, at| match light.placed(&InEyeSpace { view, at }) {
+        Ok(light) => lights.push(light),
+        Err(source) => {
+            refused.get_or_insert_with(|| OracleError::Invalid { entity: label(entity, name), source });
+        }
+    });
+    if let Some(error) = refused {
+        return Err(error);
+    }
+    Ok((lights.iter().fold(global.ga(), |sum, light| add(sum, light.steady_ambient())), lights))
 }
 
-/// Every light of one kind that shines, in the order of their entities so that sums repeat.
-fn each<L: Component>(
-    world: &mut World,
-    light: impl Fn(&L, &GlobalTransform) -> Result<Light<f64>, InvalidValue>,
-) -> Result<Vec<Light<f64>>, OracleError> {
-    let mut query = world.query::<(Entity, &L, &GlobalTransform, Option<&Name>)>();
-    let mut shown = SystemState::<Shown>::new(world);
-    let shown = shown.get(world).expect(ALWAYS);
-    let is_shown = shown.by_entity();
-    let mut all: Vec<_> = query.iter(world).filter(|(entity, ..)| is_shown(*entity)).collect();
-    all.sort_unstable_by_key(|(entity, ..)| *entity);
-    let gathered = all.into_iter().map(|(entity, component, transform, name)| {
-        light(component, transform).map_err(|source| OracleError::Invalid { entity: label(entity, name), source })
-    });
-    gathered.collect()
+/// The frame of a light's entity in eye space.
+struct InEyeSpace<'a> {
+    view: &'a PictureView,
+    at: &'a GlobalTransform,
+}
+
+/// Each checks in f32 whether there is such a place or axis; the axis itself is taken in f64.
+impl LightFrame for InEyeSpace<'_> {
+    fn position(&self) -> Result<[f64; 3], InvalidValue> {
+        light_position(self.at).map(|p| self.view.eye_from_point(p.as_dvec3()).to_array())
+    }
+
+    fn forward(&self) -> Result<[f64; 3], InvalidValue> {
+        light_direction(self.at).map(|_| self.view.eye_from_direction(-affine(self.at).matrix3.z_axis).to_array())
+    }
+
+    fn up(&self) -> Result<[f64; 3], InvalidValue> {
+        light_up(self.at).map(|_| self.view.eye_from_direction(affine(self.at).matrix3.y_axis).to_array())
+    }
 }
 
 type Object<'a> = (

@@ -36,7 +36,9 @@ impl AxialLobe {
         viewer: &Eye<f64>,
         material: &Coefficients<f64>,
     ) -> Coefficients<f64> {
-        let h = add(incidence(surface, light).l, view_vector(surface, viewer));
+        // Light from all around has no highlight.
+        let Some(incident) = incidence(surface, light) else { return *material };
+        let h = add(incident.l, view_vector(surface, viewer));
         Coefficients { shininess: axial_exponent(self.axes, self.widths, h, material.shininess), ..*material }
     }
 }

@@ -5,6 +5,7 @@ use halfway_lighting::equations::vector::{add, mul, scale};
 use halfway_lighting::equations::{
     Coefficients, ShadedPoint, interpolated_normal, light_terms, side_normal, specular_exponent,
 };
+use halfway_lighting::lights::LightSource;
 use halfway_lighting::{Frequency, Reflectance};
 use halfway_texture::MapKind;
 
@@ -136,7 +137,7 @@ impl OracleScene {
             let terms = light_terms(&surface, &material, light, &self.viewer, reflectance);
             if solid.terms.diffuse == at {
                 i.diffuse = add(i.diffuse, terms.diffuse);
-                if light.attenuate_ambient {
+                if light.steady_ambient() == [0.0; 3] {
                     i.ambient = add(i.ambient, terms.ambient);
                 }
             }

@@ -16,7 +16,7 @@ const CORNERS: [Vec3; 3] = [Vec3::new(-2.0, -1.0, -2.0), Vec3::new(2.0, -1.0, -2
 const NORMALS: [Vec3; 3] = [Vec3::Z, Vec3::X, Vec3::X];
 
 fn axial(i: f32) -> DirectionalLight {
-    DirectionalLight { specular: LinearRgba::BLACK, ..DirectionalLight::from_color(grey(i)) }
+    DirectionalLight { specular: LinearRgba::BLACK, ..DirectionalLight::new(grey(i)) }
 }
 
 /// The shares of the corners at the point of the tilted triangle that a ray meets: the ray is cut with the triangle's
@@ -58,7 +58,7 @@ fn lambert_with_emission_and_ambient() {
         };
         stage.add(wall(8.0, 2.0), (material, shading));
         // n·l = 4/5; the light's own ambient is 1/4.
-        let sun = DirectionalLight { ambient: grey(0.25), ..DirectionalLight::from_color(grey(2.0)) };
+        let sun = DirectionalLight { ambient: grey(0.25), ..DirectionalLight::new(grey(2.0)) };
         stage.sun(sun, Vec3::new(-3.0, 0.0, -4.0));
         let image = stage.draw(9, 9);
         let expected = [0.125 + 0.25 * 0.75 + 0.5 * 1.6, 0.5 * 0.75 + 0.25 * 1.6, 0.25 + 0.75];

@@ -22,8 +22,15 @@ fn v(i: u32, k: u32) -> vec3f {
 fn light(i: u32, k: u32) -> Light {
     return Light(
         v(i, k), s(i, k + 3), v(i, k + 4), s(i, k + 7), v(i, k + 8), s(i, k + 11), v(i, k + 12), s(i, k + 15),
-        v(i, k + 16), s(i, k + 19), s(i, k + 20), s(i, k + 21), s(i, k + 22), 0.0,
+        v(i, k + 16), s(i, k + 19), s(i, k + 20), s(i, k + 21), s(i, k + 22), 0u,
     );
+}
+
+// The same light of the kind of this number.
+fn of_kind(kind: u32, i: u32, k: u32) -> Light {
+    var result = light(i, k);
+    result.kind = kind;
+    return result;
 }
 
 @compute @workgroup_size(64)

@@ -1,7 +1,7 @@
 //! What the functions are called with: every edge of their definitions, and numbers over the whole range.
 
 use fastrand::Rng;
-use halfway_lighting::equations::{ConeTerms, Light, Place, ShadedPoint};
+use halfway_lighting::equations::{Colors, ConeTerms, Directional, Hemisphere, Light, Point, ShadedPoint, Spot};
 
 use crate::adapter::INPUT;
 
@@ -108,18 +108,31 @@ impl Lit {
 }
 
 /// The light that an input holds, as the twin takes it.
-pub(crate) fn light(x: &[f32]) -> Light<f64> {
+pub(crate) fn spot(x: &[f32]) -> Spot<f64> {
     let some = |k: usize| (x[k] != 0.0).then_some(f64::from(x[k]));
-    Light {
-        place: Place::Point(wide(x)),
-        la: wide(&x[16..]),
-        ld: wide(&x[4..]),
-        ls: wide(&x[8..]),
-        attenuation: [x[7], x[11], x[15]].map(f64::from),
-        range: some(RANGE),
-        cone: Some(cone(x)),
-        attenuate_ambient: true,
-    }
+    let colors = Colors { la: wide(&x[16..]), ld: wide(&x[4..]), ls: wide(&x[8..]) };
+    let attenuation = [x[7], x[11], x[15]].map(f64::from);
+    let point = Point { position: wide(x), colors, attenuation, range: some(RANGE), attenuate_ambient: true };
+    Spot { point, cone: cone(x) }
+}
+
+pub(crate) fn light(x: &[f32]) -> Light<f64> {
+    Light::Spot(spot(x))
+}
+
+/// The same without a cone.
+pub(crate) fn point(x: &[f32]) -> Light<f64> {
+    Light::Point(spot(x).point)
+}
+
+/// Parallel rays, toward where the light stands. Its record has an ambient color all the same, which is added.
+pub(crate) fn directional(x: &[f32]) -> Light<f64> {
+    Light::Directional(Directional { toward: wide(x), colors: spot(x).point.colors })
+}
+
+/// Light from all around: the position of the record is the direction toward the sky.
+pub(crate) fn hemisphere(x: &[f32]) -> Light<f64> {
+    Light::Hemisphere(Hemisphere { up: wide(x), sky: wide(&x[4..]), ground: wide(&x[8..]) })
 }
 
 pub(crate) fn cone(x: &[f32]) -> ConeTerms<f64> {
@@ -163,6 +176,11 @@ pub(crate) fn squarings() -> Vec<Input> {
 /// Lights and points in general position, and `edges`.
 pub(crate) fn lit(edges: impl IntoIterator<Item = Lit>) -> Vec<Input> {
     many(edges.into_iter().map(|lit| lit.input()), 3000, |random| Lit::random(random).input())
+}
+
+/// Lights whose position is a direction toward them.
+pub(crate) fn sunny() -> Vec<Input> {
+    many([], 3000, |random| Lit { position: direction(random), ..Lit::random(random) }.input())
 }
 
 /// A light above, at and beside the point, and one that counts as being at it; eyes at the point.

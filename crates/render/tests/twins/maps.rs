@@ -29,7 +29,7 @@ fn called(rows: &[Row]) -> BTreeSet<&'static str> {
 }
 
 fn too_far(gpu: &Gpu, bound: &Bound, maps: &str, row: &Row) -> Option<String> {
-    let text = format!("{LIGHTING}{maps}");
+    let text = format!("{}{maps}", *LIGHTING);
     far_of(row, results_with(gpu, (&text, Some(bound)), (row.call, row.kind), row.constants, &row.inputs))
 }
 
@@ -38,7 +38,7 @@ fn each_function_of_maps_gives_what_its_twin_gives() {
     let gpu = Gpu::open_headless().expect("an adapter");
     let bound = bound(&gpu.device, &gpu.queue);
     let mut failures: Vec<String> = rows().iter().filter_map(|row| too_far(&gpu, &bound, MAPS, row)).collect();
-    failures.extend(derivatives::too_far(&gpu, &format!("{LIGHTING}{MAPS}")));
+    failures.extend(derivatives::too_far(&gpu, &format!("{}{MAPS}", *LIGHTING)));
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
@@ -113,7 +113,7 @@ fn a_planted_fault_in_any_function_of_maps_is_found() {
         assert_eq!(MAPS.matches(right).count(), 1, "{right} is in the text once");
         let faulty = MAPS.replace(right, wrong);
         let found = if function == derivatives::FUNCTION {
-            derivatives::too_far(&gpu, &format!("{LIGHTING}{faulty}")).is_some()
+            derivatives::too_far(&gpu, &format!("{}{faulty}", *LIGHTING)).is_some()
         } else {
             let mut of_it = rows.iter().filter(|row| row.function == function);
             of_it.any(|row| too_far(&gpu, &bound, &faulty, row).is_some())
@@ -131,7 +131,7 @@ fn a_planted_fault_in_any_function_of_maps_is_found() {
 fn without_row(maps: &str) -> Vec<String> {
     let functions = |text: &str| named(&parsed(text)).0;
     let own: BTreeSet<String> =
-        functions(&format!("{LIGHTING}{maps}")).difference(&functions(LIGHTING)).cloned().collect();
+        functions(&format!("{}{maps}", *LIGHTING)).difference(&functions(&LIGHTING)).cloned().collect();
     let called = called(&rows()).into_iter().map(str::to_owned).collect();
     own.symmetric_difference(&called).cloned().collect()
 }

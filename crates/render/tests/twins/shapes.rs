@@ -19,7 +19,7 @@ fn rows() -> Vec<Row> {
 }
 
 fn too_far(gpu: &Gpu, bound: &Bound, shapes: &str, row: &Row) -> Option<String> {
-    let text = format!("{LIGHTING}{MAPS}{shapes}");
+    let text = format!("{}{MAPS}{shapes}", *LIGHTING);
     far_of(row, results_with(gpu, (&text, Some(bound)), (row.call, row.kind), row.constants, &row.inputs))
 }
 
@@ -98,7 +98,7 @@ fn a_planted_fault_in_any_function_of_by_shape_is_found() {
 
 /// Functions of the text that no row calls, and the other way round.
 fn without_row(shapes: &str) -> Vec<String> {
-    let functions = |text: &str| named(&parsed(&format!("{LIGHTING}{MAPS}{text}"))).0;
+    let functions = |text: &str| named(&parsed(&format!("{}{MAPS}{text}", *LIGHTING))).0;
     let own: BTreeSet<String> = functions(shapes).difference(&functions("")).cloned().collect();
     let called = rows().iter().map(|row| row.function.to_owned()).collect();
     own.symmetric_difference(&called).cloned().collect()

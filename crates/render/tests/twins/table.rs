@@ -4,10 +4,10 @@
 //! compared with, so a row without its twin does not compile.
 
 use halfway_lighting::Reflectance;
-use halfway_lighting::equations::{self, Eye, Incidence, Irradiance};
+use halfway_lighting::equations::{self, Eye, Incidence, Irradiance, Light, Point};
 
 use crate::adapter::Kind;
-use crate::inputs::{self, Input, N, P, SHININESS, cone, light, surface, wide};
+use crate::inputs::{self, Input, N, P, SHININESS, cone, directional, hemisphere, light, point, spot, surface, wide};
 
 /// Calls of one function.
 pub(crate) struct Row {
@@ -141,14 +141,13 @@ fn vectors_of(x: &[f32]) -> ([f64; 3], [f64; 3], [f64; 3], f64) {
 /// Of att·spot: the distance is known to 4 ULP, which its square takes twice and the window four times; the cosine of
 /// the cone to 8 ULP, which its power and its fade steepen.
 fn of_weight(x: &[f32], ranged: bool, coned: bool) -> f64 {
-    let mut bare = light(x);
-    bare.cone = None;
+    let mut bare = spot(x).point;
     if !ranged {
         bare.range = None;
     }
-    let Incidence { l, weight, .. } = incidence(&surface(x), &bare);
+    let Incidence { l, weight, .. } = incidence(&surface(x), &Light::Point(bare));
     bare.range = None;
-    let unwindowed = incidence(&surface(x), &bare).weight;
+    let unwindowed = incidence(&surface(x), &Light::Point(bare)).weight;
     let falloff = 30.0 * ULP * weight + if ranged { 40.0 * ULP * unwindowed } else { 0.0 };
     if !coned {
         return falloff + LEAST;
@@ -169,20 +168,31 @@ fn of_spot(cos_phi: f64, blur: f64, x: &[f32], spot: f64) -> f64 {
 }
 
 fn of_irradiance(x: &[f32], expected: &[f64], reflectance: Reflectance, shared: bool) -> Vec<f64> {
-    let light = light(x);
+    of_irradiance_from(&light(x), of_weight(x, true, true), x, expected, reflectance, shared)
+}
+
+/// The same for a light whose weight is known to `of_weight`.
+fn of_irradiance_from(
+    light: &Light<f64>,
+    of_weight: f64,
+    x: &[f32],
+    expected: &[f64],
+    reflectance: Reflectance,
+    shared: bool,
+) -> Vec<f64> {
     let surface = surface(x);
-    let Incidence { l, grazing, weight } = incidence(&surface, &light);
+    let Incidence { l, grazing, weight } = incidence(&surface, light);
+    let colors = spot(x).point.colors;
     let v = view_vector(&surface, &Eye::Local([0.0; 3]));
     let n = surface.normal;
-    let of_weight = of_weight(x, true, true);
     let s = specular_term(reflectance, n, l, v, f64::from(x[SHININESS]));
     let of_s = of_highlight(reflectance == Reflectance::Phong, n, l, v, 16.0 * ULP, f64::from(x[SHININESS]));
     // At the very height that counts as in the plane it is one side's or the other's.
     let either = if (dot(n, l) - grazing).abs() < 8.0 * ULP { weight } else { 0.0 };
     let of_diffuse = (of_weight + either) * diffuse_term(n, l) + weight * 10.0 * ULP;
     let of_specular = (of_weight + either) * (s + of_s) + weight * of_s;
-    let specular = if shared { light.ld } else { light.ls };
-    let colors = [(light.la, of_weight), (light.ld, of_diffuse), (specular, of_specular)];
+    let specular = if shared { colors.ld } else { colors.ls };
+    let colors = [(colors.la, of_weight), (colors.ld, of_diffuse), (specular, of_specular)];
     let allowed = colors.into_iter().flat_map(|(color, off)| color.map(|c| c * off + LEAST));
     allowed.zip(expected).map(|(allowed, expected)| allowed + 2.0 * ULP * expected).collect()
 }
@@ -191,20 +201,32 @@ const PHONG: &[(&str, f64)] = &[("BLINN_PHONG", 0.0)];
 const NOTHING: &[(&str, f64)] = &[];
 
 /// The light with its specular colour its diffuse colour.
-fn shared(x: &[f32]) -> equations::Light<f64> {
-    let light = light(x);
-    equations::Light { ls: light.ld, ..light }
+fn shared(x: &[f32]) -> Light<f64> {
+    let mut spot = spot(x);
+    spot.point.colors.ls = spot.point.colors.ld;
+    Light::Spot(spot)
 }
 
-fn without_range(x: &[f32]) -> equations::Light<f64> {
-    equations::Light { range: None, cone: None, ..light(x) }
+fn without_range(x: &[f32]) -> Light<f64> {
+    Light::Point(Point { range: None, ..spot(x).point })
 }
+
+/// How these lights arrive: none comes from all around.
+fn incidence(surface: &equations::ShadedPoint<f64>, light: &Light<f64>) -> Incidence<f64> {
+    equations::incidence(surface, light).expect("a direction")
+}
+
+use equations::irradiance as any_light;
+use equations::irradiance as directional_light;
+use equations::irradiance as hemisphere_light;
+use equations::irradiance as point_light;
+use equations::irradiance as spot_light;
 
 use equations::vector::{add, dot, length, normalize_or_zero};
 use equations::{
-    aces, attenuation, axial_exponent, diffuse_term, divisor, half_vector, incidence, interpolated_normal, irradiance,
-    lobe_angle, lobe_exponent, mean_light, mirrored, power, range_window, reflect, reinhard, specular_blinn_phong,
-    specular_phong, specular_term, spot_factor, srgb_encoded, transform_normal, view_vector,
+    aces, attenuation, axial_exponent, diffuse_term, divisor, half_vector, interpolated_normal, irradiance, lobe_angle,
+    lobe_exponent, mean_light, mirrored, power, range_window, reflect, reinhard, specular_blinn_phong, specular_phong,
+    specular_term, spot_factor, srgb_encoded, transform_normal, view_vector,
 };
 
 use halfway_texture::environment::on_cube;
@@ -271,6 +293,39 @@ pub(crate) fn rows() -> Vec<Row> {
             &[("BLINN_PHONG", 0.0), ("SHARED_COLOR", 1.0)], inputs::lit(inputs::coincident()),
             |x| (&surface(x), &shared(x), &Eye::Local([0.0; 3]), Reflectance::Phong, f64::from(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::Phong, true)),
+        row!(directional_light("light(i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+                -> Irradiance, NOTHING, inputs::sunny(),
+            |x| (&surface(x), &directional(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x, e| of_irradiance_from(&directional(x), 0.0, x, e, Reflectance::BlinnPhong, false)),
+        row!(point_light("light(i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+                -> Irradiance, NOTHING, inputs::lit(inputs::coincident()),
+            |x| (&surface(x), &point(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x, e| of_irradiance_from(&point(x), of_weight(x, true, false), x, e, Reflectance::BlinnPhong, false)),
+        row!(spot_light("light(i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+                -> Irradiance, NOTHING, inputs::lit(inputs::coincident()),
+            |x| (&surface(x), &light(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x, e| of_irradiance(x, e, Reflectance::BlinnPhong, false)),
+        // The cosine is known to 4 ULP, and each product to half of one.
+        row!(hemisphere_light("light(i, 0), v(i, 23), v(i, 26), v(i, 26), s(i, 29), Terms(true, true)")
+                -> Irradiance, NOTHING, inputs::sunny(),
+            |x| (&surface(x), &hemisphere(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |_, e| each(e, 16.0 * ULP)),
+        row!(any_light("of_kind(3u, i, 0), v(i, 23), v(i, 26), v(i, 26), s(i, 29), Terms(true, true)")
+                -> Irradiance, NOTHING, inputs::sunny(),
+            |x| (&surface(x), &hemisphere(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |_, e| each(e, 16.0 * ULP)),
+        row!(any_light("of_kind(0u, i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+                -> Irradiance, NOTHING, inputs::sunny(),
+            |x| (&surface(x), &directional(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x, e| of_irradiance_from(&directional(x), 0.0, x, e, Reflectance::BlinnPhong, false)),
+        row!(any_light("of_kind(1u, i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+                -> Irradiance, NOTHING, inputs::lit(inputs::coincident()),
+            |x| (&surface(x), &point(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x, e| of_irradiance_from(&point(x), of_weight(x, true, false), x, e, Reflectance::BlinnPhong, false)),
+        row!(any_light("of_kind(2u, i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+                -> Irradiance, NOTHING, inputs::lit(inputs::coincident()),
+            |x| (&surface(x), &light(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x, e| of_irradiance(x, e, Reflectance::BlinnPhong, false)),
         row!(normalize_or_zero("v(i, 0)") -> Vector, NOTHING, inputs::short_vectors(),
             |x| (long_enough(wide(x))), |_, e| each(e, 5.0 * ULP)),
         row!(transform_normal("mat3x3f(v(i, 0), v(i, 3), v(i, 6)), v(i, 9)") -> Vector, NOTHING, inputs::matrices(),

@@ -5,6 +5,7 @@ use halfway_lighting::equations::vector::mul;
 use halfway_lighting::equations::{Coefficients, Irradiance, reflected};
 use halfway_render::{Gpu, wgpu::naga};
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 use crate::adapter::{Kind, results};
 use crate::inputs::{Input, between, many, wide};
@@ -19,15 +20,17 @@ macro_rules! shader {
 }
 
 /// What the file needs, where it has images.
-const BEFORE: [&str; 7] = [
-    LIGHTING,
-    shader!("records.wgsl"),
-    shader!("uniform.wgsl"),
-    shader!("mesh.wgsl"),
-    shader!("maps.wgsl"),
-    shader!("by_level.wgsl"),
-    shader!("factors.wgsl"),
-];
+static BEFORE: LazyLock<[&str; 7]> = LazyLock::new(|| {
+    [
+        &LIGHTING,
+        shader!("records.wgsl"),
+        shader!("uniform.wgsl"),
+        shader!("mesh.wgsl"),
+        shader!("maps.wgsl"),
+        shader!("by_level.wgsl"),
+        shader!("factors.wgsl"),
+    ]
+});
 const SURFACE: &str = shader!("surface.wgsl");
 
 /// Its switches, for a text with all functions that are tried here; with images, and without.

@@ -10,7 +10,7 @@ use halfway_lighting::{
 };
 use halfway_mesh::{SourceLight, SourceLightKind};
 
-use crate::light_component::LightComponent;
+use halfway_lighting::LightComponent;
 
 /// The scale under which a shaded value is the radiance that glTF defines: 1/π.
 ///
@@ -38,10 +38,9 @@ pub fn from_punctual(source: &SourceLight, scale: f32) -> Result<LightComponent,
     fields.channels("color·intensity·scale", [red, green, blue])?;
     let color = LinearRgba::rgb(red, green, blue);
     if source.kind == SourceLightKind::Directional {
-        return Ok(LightComponent::Directional(DirectionalLight::from_color(color)));
+        return Ok(LightComponent::Directional(DirectionalLight::new(color)));
     }
-    let light =
-        PointLight { attenuation: Attenuation::INVERSE_SQUARE, range: source.range, ..PointLight::from_color(color) };
+    let light = PointLight { attenuation: Attenuation::INVERSE_SQUARE, range: source.range, ..PointLight::new(color) };
     light.validate()?;
     match source.kind {
         SourceLightKind::Spot { inner, outer } => {

@@ -162,17 +162,17 @@ fn the_page_has_the_keys_defaults_and_ranges_of_every_kind_of_light() {
     let (page, schema) = (page(), schema());
     let (shared, own) = (table(&page, "## Lights", 0), table(&page, "## Lights", 1));
     let kinds = schema["$defs"]["LightEntry"]["oneOf"].as_array().expect("kinds of light");
-    assert_eq!(kinds.len(), 4);
+    assert_eq!(kinds.len(), 5);
     let mut wrong = Vec::new();
     for kind in kinds {
         let name = kind["properties"]["kind"]["const"].as_str().expect("a name");
-        let column =
-            ["point", "spot", "directional", "homogeneous"].iter().position(|it| *it == name).expect("a column");
+        let kinds = ["point", "spot", "directional", "homogeneous", "hemisphere"];
+        let column = kinds.iter().position(|it| *it == name).expect("a column");
         let mut rows = shared.clone();
         for row in &own {
             let cell = if row[column + 1] == "same" { &row[1] } else { &row[column + 1] };
             if cell != "–" {
-                rows.push(vec![row[0].clone(), row[5].clone(), cell.clone()]);
+                rows.push(vec![row[0].clone(), row[6].clone(), cell.clone()]);
             }
         }
         wrong.extend(differences(&rows, kind, name));

@@ -323,7 +323,7 @@ fn metallic_roughness_nonsense_is_refused_by_field() {
 fn punctual_lights() {
     let numbers = SourceLight { color: [1.0, 0.5, 0.25], intensity: 8.0, ..white(SourceLightKind::Point) };
     let shine = color([4.0, 2.0, 1.0]);
-    let point = PointLight { attenuation: Attenuation::INVERSE_SQUARE, ..PointLight::from_color(shine) };
+    let point = PointLight { attenuation: Attenuation::INVERSE_SQUARE, ..PointLight::new(shine) };
     let ranged = PointLight { range: Some(12.0), ..point };
     let cone = Cone { cutoff: FRAC_PI_4, inner: Some(0.25), exponent: 0.0 };
     let spot = SourceLightKind::Spot { inner: 0.25, outer: FRAC_PI_4 };
@@ -335,7 +335,7 @@ fn punctual_lights() {
         (
             "directional",
             with(SourceLightKind::Directional, Some(12.0)),
-            LightComponent::Directional(DirectionalLight::from_color(shine)),
+            LightComponent::Directional(DirectionalLight::new(shine)),
         ),
     ];
     for (name, numbers, expected) in rows {

@@ -181,7 +181,7 @@ fn lights_are_what_the_file_says() {
     assert_eq!(spot, SpotLight { light: PointLight::white(), cone });
     assert_close(direction(&app, at(1)), Vec3::Z);
 
-    assert_eq!(get::<DirectionalLight>(&app, at(2)), Some(DirectionalLight::from_color(LinearRgba::WHITE)));
+    assert_eq!(get::<DirectionalLight>(&app, at(2)), Some(DirectionalLight::new(LinearRgba::WHITE)));
     assert_close(direction(&app, at(2)), Vec3::X);
 
     // w ≠ 0 is a point at xyz/w, with a cone only where one is given; w = 0 shines away from the direction.
@@ -190,7 +190,7 @@ fn lights_are_what_the_file_says() {
     assert_eq!(get::<SpotLight>(&app, at(4)).unwrap().cone, Cone::new(45_f32.to_radians()));
     assert_eq!(global(&app, at(4)).w_axis.truncate(), Vec3::new(-1.0, -2.0, -3.0));
     assert_close(direction(&app, at(4)), Vec3::X);
-    assert_eq!(get::<DirectionalLight>(&app, at(5)), Some(DirectionalLight::from_color(LinearRgba::WHITE)));
+    assert_eq!(get::<DirectionalLight>(&app, at(5)), Some(DirectionalLight::new(LinearRgba::WHITE)));
     assert_close(direction(&app, at(5)), Vec3::NEG_Y);
 }
 

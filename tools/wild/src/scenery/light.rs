@@ -23,24 +23,29 @@ pub(super) fn lights(random: &mut Rng, unit: f64, objects: usize) -> Value {
 }
 
 fn light(random: &mut Rng, unit: f64, objects: usize, brightness: f64) -> Value {
-    let kind = random.choose(&["point", "point", "spot", "spot", "directional", "homogeneous"]);
+    let kind = random.choose(&["point", "point", "spot", "spot", "directional", "homogeneous", "hemisphere"]);
     let mut light = Object::new();
     light.set("kind", kind.into());
     let bright = if random.percent(4) { random.magnitude(2, 10) } else { 1.0 } * brightness;
-    light.set("diffuse", looks::color(random, 1.2 * bright));
-    light.perhaps(random, 85, "specular", |random| looks::color(random, 1.2 * bright));
-    light.perhaps(random, 30, "ambient", |random| looks::color(random, 0.3 * bright));
+    if kind == "hemisphere" {
+        light.perhaps(random, 85, "sky", |random| looks::color(random, 0.8 * bright));
+        light.perhaps(random, 85, "ground", |random| looks::color(random, 0.4 * bright));
+    } else {
+        light.set("diffuse", looks::color(random, 1.2 * bright));
+        light.perhaps(random, 85, "specular", |random| looks::color(random, 1.2 * bright));
+        light.perhaps(random, 30, "ambient", |random| looks::color(random, 0.3 * bright));
+    }
     light.perhaps(random, 30, "attach", |random| match random.u64(0..=4) {
         0 => json!("world"),
         1..3 if objects > 0 => json!({ "object": format!("o{}", random.u64(..objects as u64)) }),
         _ => json!("camera"),
     });
     match kind {
-        "directional" => light.set("direction", direction(random)),
+        "directional" | "hemisphere" => light.set("direction", direction(random)),
         "homogeneous" => light.set("position", homogeneous(random, unit)),
         _ => light.set("position", shorts(position(random, unit))),
     }
-    if kind != "directional" {
+    if kind != "directional" && kind != "hemisphere" {
         falloff(random, unit, &mut light);
     }
     if kind == "spot" || (kind == "homogeneous" && random.percent(40)) {

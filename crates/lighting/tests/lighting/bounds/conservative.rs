@@ -76,7 +76,7 @@ fn bounds_hold_at_the_edges() {
 fn bounds_hold_where_factors_vanish() {
     let bright = LinearRgba::rgb(1e12, 1e12, 1e12);
     let material = Material { diffuse: bright, specular: bright, shininess: 1e4, ..Material::BRASS };
-    let light = PointLight { attenuation: Attenuation::INVERSE_SQUARE, ..PointLight::from_color(bright) };
+    let light = PointLight { attenuation: Attenuation::INVERSE_SQUARE, ..PointLight::new(bright) };
     let normal = [0.0, 0.6, 0.8];
     for place in [[0.0f32, 0.0, 1e25], [0.0, 0.0, 1.0]] {
         let patch = Patch {

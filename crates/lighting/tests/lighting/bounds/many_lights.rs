@@ -30,7 +30,7 @@ fn lights(range: Option<f32>) -> Vec<Light<f32>> {
                 2.0 * (1.0 - 0.6 * k.min(4.0 - k).clamp(0.0, 1.0))
             });
             let attenuation = Attenuation::new(1.0, 0.0, 0.5);
-            let light = PointLight { attenuation, range, ..PointLight::from_color(LinearRgba::rgb(r, g, b)) };
+            let light = PointLight { attenuation, range, ..PointLight::new(LinearRgba::rgb(r, g, b)) };
             let at = |k| -90.0 + 180.0 * random(i, k);
             light.at([at(0), 1.0 + 5.0 * random(i, 1), at(2)])
         })

@@ -2,6 +2,7 @@
 
 use halfway_lighting::bounds::Selected;
 use halfway_lighting::equations::Light;
+use halfway_lighting::lights::LightSource;
 use proptest::prelude::*;
 
 use super::support::{Scene, Source, around, cases, samples, scene, source};
@@ -66,7 +67,7 @@ pub(crate) fn missing_above_the_figure(
             let terms = scene.terms(&surface, light);
             for (c, missing) in missing.iter_mut().enumerate() {
                 if !selected.diffuse.contains(&number) {
-                    let ambient = if light.attenuate_ambient { terms.ambient[c] } else { 0.0 };
+                    let ambient = if light.steady_ambient() == [0.0; 3] { terms.ambient[c] } else { 0.0 };
                     *missing += ambient + terms.diffuse[c];
                 }
                 if !selected.specular.contains(&number) {

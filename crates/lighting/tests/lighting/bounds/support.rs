@@ -6,9 +6,12 @@ use bevy_color::LinearRgba;
 use halfway_lighting::bounds::{NormalCone, Patch, Receiver, TermBounds};
 use halfway_lighting::equations::vector::{add, cross, dot, length, normalize, scale, sub};
 use halfway_lighting::equations::{
-    Coefficients, Eye, Light, LightTerms, Place, Real, ShadedPoint, incidence, light_terms, view_vector,
+    Coefficients, Eye, Light, LightTerms, Real, ShadedPoint, Spot, incidence, light_terms, view_vector,
 };
-use halfway_lighting::{Attenuation, Cone, DirectionalLight, Faces, Material, PointLight, Reflectance, SpotLight};
+use halfway_lighting::lights::LightSource;
+use halfway_lighting::{
+    Attenuation, Cone, DirectionalLight, Faces, HemisphereLight, Material, PointLight, Reflectance, SpotLight,
+};
 use proptest::prelude::*;
 
 /// A light and where it is, in numbers that `f32` and `f64` both hold.
@@ -25,6 +28,7 @@ pub(crate) enum Kind {
     Point,
     Spot(Cone),
     Directional,
+    Hemisphere,
 }
 
 impl Source {
@@ -34,6 +38,7 @@ impl Source {
         match self.kind {
             Kind::Point => self.light.at(position),
             Kind::Spot(cone) => SpotLight { light: self.light, cone }.at(position, direction).expect("not 0"),
+            Kind::Hemisphere => HemisphereLight::new(diffuse, specular).toward(direction).expect("not 0"),
             Kind::Directional => DirectionalLight { ambient, diffuse, specular }.along(direction).expect("not 0"),
         }
     }
@@ -87,8 +92,12 @@ impl Scene {
         let center = self.center.map(f64::from);
         // Inside the sphere also after rounding.
         let radius = f64::from(self.radius) * (1.0 - 1e-9);
-        let target = match (light.place, self.view()) {
-            (Place::Point(light), _) if u[0] < 0.35 => normalize(sub(light, center)),
+        let position = match *light {
+            Light::Directional(_) | Light::Hemisphere(_) => None,
+            Light::Point(point) | Light::Spot(Spot { point, .. }) => Some(point.position),
+        };
+        let target = match (position, self.view()) {
+            (Some(light), _) if u[0] < 0.35 => normalize(sub(light, center)),
             (_, Eye::Local(eye)) if u[0] < 0.5 => normalize(sub(eye, center)),
             _ => None,
         };
@@ -116,7 +125,12 @@ impl Scene {
             Faces::Both => [1.0, -1.0][usize::from(u[2] < 0.5)],
         };
         let probe = ShadedPoint { position, normal: free };
-        let (l, v) = (incidence(&probe, light).l, view_vector(&probe, &self.view()));
+        let l = match light {
+            // Light from all around is brightest toward the sky or toward the ground.
+            Light::Hemisphere(light) => scale(light.up, if u[0] < 0.125 { 1.0 } else { -1.0 }),
+            _ => incidence(&probe, light).expect("a direction").l,
+        };
+        let v = view_vector(&probe, &self.view());
         let wish = match u[0] {
             u if u < 0.25 => l,
             u if u < 0.6 => normalize(add(l, v)).unwrap_or(l),
@@ -152,7 +166,7 @@ pub(crate) fn direction(a: f64, b: f64) -> [f64; 3] {
 /// What exceeds its bound, in words, or `None`. `f32` counts numbers below its smallest normal one as 0.
 pub(crate) fn exceeds<T: Real>(terms: &LightTerms<f64>, bounds: &TermBounds<T>, light: &Light<f64>) -> Option<String> {
     // An ambient that is not attenuated is no part of the bounds.
-    let ambient = if light.attenuate_ambient { terms.ambient } else { [0.0; 3] };
+    let ambient = if light.steady_ambient() == [0.0; 3] { terms.ambient } else { [0.0; 3] };
     let rows = [
         ("ambient", ambient, bounds.ambient),
         ("diffuse", terms.diffuse, bounds.diffuse),
@@ -201,7 +215,7 @@ fn cone() -> impl Strategy<Value = Cone> {
 /// Lights around a sphere of radius 1 at the origin, for [`placed`]: inside it, near it and far away, of all kinds;
 /// spots aimed at the sphere's inside, past it, and along its silhouette.
 pub(crate) fn source() -> impl Strategy<Value = Source> {
-    let kind = prop_oneof![2 => Just(Kind::Point), 3 => cone().prop_map(Kind::Spot), 1 => Just(Kind::Directional)];
+    let kind = prop_oneof![2 => Just(Kind::Point), 3 => cone().prop_map(Kind::Spot), 1 => Just(Kind::Directional), 1 => Just(Kind::Hemisphere)];
     let falloff = ([number(), number(), number()], prop::option::of(magnitude(-1.0, 3.0)), any::<bool>());
     let place = (any_direction(), distance());
     let aim = (any_direction(), prop_oneof![Just(0.0), 0f32..1.5, Just(1e4)]);

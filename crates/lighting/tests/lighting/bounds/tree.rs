@@ -143,7 +143,9 @@ fn evaluations_are_linear_in_the_lights_that_touch() {
     assert!(touching > 10.0 && evaluated < 2.5 * touching, "{touching}, {evaluated}");
     // Below the floor, beyond their range; and beside it.
     let elsewhere = near.iter().flat_map(|light| {
-        let halfway_lighting::equations::Place::Point([x, y, z]) = light.place else { panic!("a point") };
+        let Light::Point(halfway_lighting::equations::Point { position: [x, y, z], .. }) = *light else {
+            panic!("a point")
+        };
         [[x, y - 50.0, z], [x + 200.0, y, z]].map(|at| lamp(at, Some(3.0)))
     });
     let all: Vec<_> = near.iter().copied().chain(elsewhere).collect();

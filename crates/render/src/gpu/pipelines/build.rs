@@ -9,6 +9,7 @@ use crate::gpu::shaders::text::{Shader, Text};
 use halfway_frame::batch::key::DrawKey;
 use halfway_frame::lights::slots::Lists;
 use halfway_lighting::Frequency;
+use halfway_lighting::lights::Kind;
 use halfway_lighting::record::Cull;
 use halfway_texture::MapKind;
 use wgpu::naga::ShaderStage;
@@ -104,9 +105,8 @@ const OVER: wgpu::BlendState = wgpu::BlendState {
 };
 
 fn constants(key: &DrawKey, output: ShaderOutput) -> Vec<(&'static str, f64)> {
-    let [directional, points, spots] = key.lists.counts();
     let flag = |on: bool| f64::from(u8::from(on));
-    let constants = vec![
+    let constants = [
         ("BLINN_PHONG", flag(key.blinn_phong)),
         ("LOCAL_VIEWER", flag(key.local_viewer)),
         ("ATTENUATED_AMBIENT", flag(key.attenuated_ambient)),
@@ -119,10 +119,11 @@ fn constants(key: &DrawKey, output: ShaderOutput) -> Vec<(&'static str, f64)> {
         ("GEOMETRIC_FALLBACK", flag(key.geometric_fallback)),
         ("PER_INSTANCE", flag(key.per_instance)),
         ("LISTED", flag(key.lists == Lists::Listed)),
-        ("DIRECTIONAL", directional.into()),
-        ("POINTS", points.into()),
-        ("SPOTS", spots.into()),
+        ("LIGHTS", key.lists.count().into()),
+        ("MIXED_LIGHTS", flag(key.lists.kinds().len() > 1)),
     ];
+    let kinds = Kind::ALL.iter().map(|&kind| (kind.wgsl_constant(), flag(key.lists.kinds().has(kind))));
+    let constants: Vec<_> = constants.into_iter().chain(kinds).collect();
     if key.is_mapped() { constants.into_iter().chain(map_constants(key)).collect() } else { constants }
 }
 

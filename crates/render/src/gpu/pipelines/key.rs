@@ -29,7 +29,7 @@ impl Text {
         let lights = match key.lists {
             _ if key.per_instance => LightText::Listed,
             Lists::Listed => LightText::Listed,
-            Lists::Counted(_) => LightText::Few,
+            Lists::Counted(..) => LightText::Few,
         };
         let turns_normals = key.maps.has(MapKind::Normal) || key.maps.has(MapKind::Height);
         Self {

@@ -1,4 +1,5 @@
-// The lighting text: the equations in eye space, linear RGB. It needs no other file and has no bindings; the vertex and
+// The equations in eye space, linear RGB, but for the functions of the kinds of light, which halfway_lighting::lights
+// has. It needs no other file and has no bindings; the vertex and
 // the fragment stages share it. Each function and each constant here has a twin of the same name in
 // halfway_lighting::equations, written apart; a test calls each function on the adapter and compares it with its twin.
 
@@ -20,7 +21,7 @@ struct Terms {
 }
 
 struct Light {
-    position: vec3f,     // finite light: eye space; directional: unit vector toward the light
+    position: vec3f,     // in eye space, or the unit vector toward the light
     inverse_range: f32,  // 0: no range
     diffuse: vec3f,
     constant: f32,
@@ -33,7 +34,7 @@ struct Light {
     exponent: f32,
     inner_scale: f32,    // s = clamp(cos φ · inner_scale + inner_offset, 0, 1); 0 and 1 without an inner cone
     inner_offset: f32,
-    padding0: f32,
+    kind: u32,           // the number of its kind
 }
 
 struct Material {

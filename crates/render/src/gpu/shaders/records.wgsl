@@ -1,11 +1,8 @@
-// What draws read, and what a pipeline knows of them. Needs lighting.wgsl.
+// What draws read, and what a pipeline knows of them. Needs lighting.wgsl and the lights by their kind.
 
-// The lights are those that the record's lists name. Else they are the first ones bound, as many of each kind as these
-// numbers say.
+// The lights are those that the record's lists name. Else they are the first ones bound, so many.
 override LISTED: bool = false;
-override DIRECTIONAL: u32 = 0;
-override POINTS: u32 = 0;
-override SPOTS: u32 = 0;
+override LIGHTS: u32 = 0;
 
 struct View {
     scale: vec2f,        // x and y of clip_from_eye
@@ -13,15 +10,14 @@ struct View {
     padding: f32,
 }
 
-// Materials and lights. Of these how many directional, point and spot lights, and where their numbers begin among
-// `lists`.
+// Materials and lights. Of these, where their numbers begin among `lists`, and how many.
 struct Surface {
     front: Material,
     back: Material,
-    both: vec4u,
-    diffuse: vec4u,               // these lights' specular terms are left out
-    specular: vec4u,              // and of these all others
-    padding: array<vec4u, 3>,     // up to the 256 bytes that offsets may be multiples of; GLSL would not keep a @size
+    both: vec2u,
+    diffuse: vec2u,               // these lights' specular terms are left out
+    specular: vec2u,              // and of these all others
+    padding: array<vec4u, 4>,     // up to the 256 bytes that offsets may be multiples of; GLSL would not keep a @size
 }
 
 @group(0) @binding(0) var<uniform> view: View;

@@ -1,8 +1,8 @@
-// Any number of records and lights. Needs lighting.wgsl and records.wgsl. Not uniform: lavapipe compiles a shader anew
+// Any number of records and lights. Needs records.wgsl and what that needs. Not uniform: lavapipe compiles a shader anew
 // for every value that a loop's end or a condition takes from a uniform buffer.
 
 @group(0) @binding(1) var<storage, read> surfaces: array<Surface>;
-// All lights of the scene by kind: directional, point, spot.
+// All lights of the scene that lists name.
 @group(0) @binding(2) var<storage, read> lights: array<Light>;
 @group(0) @binding(3) var<storage, read> lists: array<u32>;
 
@@ -13,27 +13,16 @@ fn light_numbered(i: u32) -> Light {
     return lights[i];
 }
 
-// Adds `counts` lights of each kind, the numbers from `counts.w` on.
-fn add_listed(before: Irradiance, p: vec3f, n: vec3f, shininess: f32, counts: vec4u, terms: Terms) -> Irradiance {
+// Adds the lights of a range: where their numbers begin, and how many.
+fn add_listed(before: Irradiance, p: vec3f, n: vec3f, shininess: f32, range: vec2u, terms: Terms) -> Irradiance {
     let v = view_vector(p, n);
     var sum = before;
-    let first_point = counts.w + counts.x;
-    let first_spot = first_point + counts.y;
-    for (var i = counts.w; i < first_point; i++) {
-        let light = light_numbered(i);
-        sum = plus(sum, irradiance(light, Incidence(light.position, GRAZING, 1.0), n, v, shininess, terms));
-    }
-    for (var i = first_point; i < first_spot; i++) {
-        let light = light_numbered(i);
-        sum = plus(sum, irradiance(light, incidence(light, false, p, n), n, v, shininess, terms));
-    }
-    for (var i = first_spot; i < first_spot + counts.z; i++) {
-        let light = light_numbered(i);
-        sum = plus(sum, irradiance(light, incidence(light, true, p, n), n, v, shininess, terms));
+    for (var i = range.x; i < range.x + range.y; i++) {
+        sum = plus(sum, any_light(light_numbered(i), p, n, v, shininess, terms));
     }
     return sum;
 }
 
 fn add_counted(p: vec3f, n: vec3f, shininess: f32, terms: Terms) -> Irradiance {
-    return add_listed(Irradiance(), p, n, shininess, vec4u(DIRECTIONAL, POINTS, SPOTS, 0), terms);
+    return add_listed(Irradiance(), p, n, shininess, vec2u(0, LIGHTS), terms);
 }

@@ -215,7 +215,8 @@ fn records() -> [(&'static str, (Vec<Field>, usize)); 4] {
                 cos_cutoff,
                 exponent,
                 inner_scale,
-                inner_offset
+                inner_offset,
+                kind
             }),
         ),
         ("Material", fields!(MaterialRecord { base, shininess, diffuse, opacity, specular, ambient, emission })),
@@ -307,8 +308,8 @@ fn a_field_that_moved_is_found() {
         ("Material", "base: vec3f", "base: vec4f"),
         ("View", "    near: f32,\n    padding: f32,", "    padding: f32,\n    near: f32,"),
         ("Material", "    emission: vec3f,", "    glow: vec3f,"),
-        ("Surface", "    diffuse: vec4u,", "    padding0: vec4u,\n    diffuse: vec4u,"),
-        ("Surface", "array<vec4u, 3>", "array<vec4u, 2>"),
+        ("Surface", "    diffuse: vec2u,", "    padding0: vec2u,\n    diffuse: vec2u,"),
+        ("Surface", "array<vec4u, 4>", "array<vec4u, 3>"),
     ];
     for (name, right, wrong) in moves {
         assert!(whole.contains(right), "{right} is in the text");

@@ -7,6 +7,7 @@ use crate::gpu::shaders::template::Template;
 use bevy_platform::collections::HashMap;
 use halfway_frame::lights::slots::COUNTED_LIGHTS;
 use halfway_frame::lights::terms::{by_fragment_shader, by_vertex_shader};
+use halfway_lighting::lights;
 use halfway_lighting::record::LightRecord;
 use halfway_lighting::{Frequency, Terms};
 use halfway_texture::MapKind;
@@ -86,7 +87,7 @@ impl Text {
     /// The files that it is put together of, end to end. Each needs only those before it, so that it is valid WGSL with
     /// them; `lighting.wgsl` needs none.
     pub(crate) fn files(self) -> Vec<&'static str> {
-        let mut files = vec![LIGHTING, include_str!("records.wgsl")];
+        let mut files = vec![LIGHTING, lights::wgsl(), include_str!("records.wgsl")];
         files.push(match self.lights {
             LightText::Few => include_str!("uniform.wgsl"),
             LightText::Listed => include_str!("storage.wgsl"),
