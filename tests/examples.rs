@@ -251,6 +251,23 @@ fn engine_module() {
 }
 
 #[test]
+fn lines_pass() {
+    let file = folder("lines_pass").join("lines_pass.png");
+    draw("lines_pass", &file, &[]);
+    let picture = picture(&file);
+    // Brass and its highlights have no pixel of which one channel is far above both others but red above blue.
+    let along = |axis: usize| {
+        let is_of = |pixel: [u8; 3]| (0..3).all(|other| other == axis || pixel[axis] > 60 + 2 * pixel[other].min(97));
+        picture.pixels().filter(|pixel| is_of(pixel.0)).count()
+    };
+    let counts = [0, 1, 2].map(along);
+    let on_the_cpu = std::env::var("HALFWAY_ADAPTER").is_ok_and(|name| name.starts_with("cpu"));
+    // The whole axes are longer: the teapot hides their middles.
+    let expected = if on_the_cpu { 0..=0 } else { 5..=60 };
+    assert!(counts[1..].iter().all(|count| expected.contains(count)), "{counts:?}");
+}
+
+#[test]
 fn soak() {
     let run = |more: &[&str]| {
         let mut command = Command::new(binary("soak"));
