@@ -143,6 +143,15 @@ impl Made {
     }
 }
 
+/// A stage with the scene and its veil, to be put somewhere; `None` where the CPU draws.
+fn veiled(scene: &Scene) -> Option<Stage> {
+    let mut stage = Stage::new(24, 16);
+    stage.set(scene);
+    stage.frame();
+    stage.app.add_over_pass(Veil::default());
+    (!stage.is_on_cpu()).then_some(stage)
+}
+
 /// The pixels in the middle and at a corner.
 fn pixels(stage: &mut Stage) -> [[f32; 3]; 2] {
     let picture = stage.float();
@@ -157,12 +166,7 @@ const GREEN: [f32; 3] = [0.0, 1.0, 0.0];
 
 #[test]
 fn an_app_s_pass_draws_over_the_scene_by_its_depth() {
-    let mut stage = Stage::new(24, 16);
-    if stage.is_on_cpu() {
-        return;
-    }
-    stage.app.add_over_pass(Veil::default());
-    stage.set(&square());
+    let Some(mut stage) = veiled(&square()) else { return };
     // Behind the square, before it, and not there.
     for (z, expected) in [(-5.0, [SQUARE, GREEN]), (-1.0, [GREEN, GREEN]), (1.0, [SQUARE, [0.0; 3]])] {
         stage.world().insert_resource(VeilAt(z));
@@ -180,15 +184,10 @@ fn an_app_s_pass_draws_over_the_scene_by_its_depth() {
 
 #[test]
 fn a_policy_acts_on_an_app_s_pass() {
-    let mut stage = Stage::new(24, 16);
-    if stage.is_on_cpu() {
-        return;
-    }
-    stage.app.add_over_pass(Veil::default());
-    stage.world().insert_resource(VeilAt(-5.0));
     let mut scene = Scene::in_eye_space().with(Thing::square(Vec3::Z * -3.0, Vec3::Z, 1.0).of(glowing(4.0, 2.0, 1.0)));
     scene.camera.intensity = Intensity::Renormalize { smoothing: 0.0 };
-    stage.set(&scene);
+    let Some(mut stage) = veiled(&scene) else { return };
+    stage.world().insert_resource(VeilAt(-5.0));
     assert_eq!(pixels(&mut stage), [SQUARE, [0.0, 0.25, 0.0]]);
     let phases: Vec<_> = passes(&stage).into_iter().map(|(phase, ..)| phase).collect();
     assert_eq!(phases, [Phase::Opaque, Phase::Over, Phase::Policy]);
@@ -196,12 +195,7 @@ fn a_policy_acts_on_an_app_s_pass() {
 
 #[test]
 fn an_app_s_pass_that_fails_is_an_error() {
-    let mut stage = Stage::new(24, 16);
-    if stage.is_on_cpu() {
-        return;
-    }
-    stage.app.add_over_pass(Veil::default());
-    stage.set(&square());
+    let Some(mut stage) = veiled(&square()) else { return };
     let expected = RenderError::Pass { pass: "veil".into(), reason: "there is no VeilAt".into() };
     assert_eq!(stage.frame().errors, [expected.clone()]);
     assert_eq!(expected.to_string(), "the pass veil is not drawn: there is no VeilAt");
