@@ -210,5 +210,5 @@ fn the_cpu_draws_the_scene_without_an_app_s_pass() {
     stage.world().insert_resource(VeilAt(-5.0));
     stage.set(&square());
     assert_eq!(pixels(&mut stage), [SQUARE, [0.0; 3]]);
-    assert_eq!(passes(&stage), [(Phase::Opaque, 1, 2)]);
+    assert_eq!((passes(&stage), stage.report().passes_refused), (vec![(Phase::Opaque, 1, 2)], 1));
 }

@@ -8,9 +8,9 @@ use bevy_ecs::prelude::Resource;
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FrameReport {
     /// Everything that kept the frame from being drawn as asked, in the order found. What an error names is left out of
-    /// the picture, and nothing is left out without one, but for an App's own pass where the [`Cpu`](crate::Cpu) draws:
-    /// the log says so. What goes wrong beside the frames is told here as well, once,
-    /// though nothing is left out for it: a pipeline that a frame can do without.
+    /// the picture, and nothing is left out without one but [`passes_refused`](Self::passes_refused). What goes wrong
+    /// beside the frames is told here as well, once, though nothing is left out for it: a pipeline that a frame can do
+    /// without.
     pub errors: Vec<RenderError>,
     /// Objects with a mesh that are not [hidden](halfway_lighting::Visibility).
     pub objects: u32,
@@ -40,6 +40,8 @@ pub struct FrameReport {
     pub triangles: u64,
     /// The passes that drew something, in order, and how much each of them drew.
     pub passes: Vec<Pass>,
+    /// Passes of the App's own that are not drawn, since the [`Cpu`](crate::Cpu) draws.
+    pub passes_refused: u32,
     /// Passes over the finished picture, by an [`Intensity`](halfway_lighting::Intensity) that acts on it: of
     /// [`Cpu`](crate::Cpu) over its memory. 0 under [`Intensity::Clamp`](halfway_lighting::Intensity::Clamp).
     pub picture_passes: u32,
@@ -71,6 +73,7 @@ impl FrameReport {
         // Its memory is kept.
         let mut passes = std::mem::take(&mut self.passes);
         passes.clear();
-        *self = Self { pipelines, pipelines_live, pipelines_pending, passes, ..Self::default() };
+        *self = Self { pipelines, pipelines_live, pipelines_pending, ..Self::default() };
+        self.passes = passes;
     }
 }

@@ -15,7 +15,7 @@ use std::error::Error;
 /// so that the scene hides what is behind it, and the camera's intensity policy acts on what it draws. Register it
 /// with [`AddOverPass::add_over_pass`].
 ///
-/// The CPU does not draw such passes; the log says so once for each.
+/// The CPU does not draw such passes: [`FrameReport::passes_refused`] counts them, and the log names each once.
 ///
 /// ```
 /// # use halfway_render::{AddOverPass, OverPass, OverView, PassCounts, RenderPlugin, wgpu};
@@ -138,8 +138,9 @@ pub(crate) fn is_any(over: Option<Res<OverPasses>>) -> bool {
     over.is_some()
 }
 
-/// Says, once for each pass, that the CPU does not draw it.
-pub(crate) fn refuse_on_cpu(mut over: ResMut<OverPasses>) {
+/// Says that the CPU draws none of them: in each report, and of each pass once in the log.
+pub(crate) fn refuse_on_cpu(mut over: ResMut<OverPasses>, mut report: ResMut<FrameReport>) {
+    report.passes_refused = over.0.len() as u32;
     for Registered { pass, refused, .. } in &mut over.0 {
         if !std::mem::replace(refused, true) {
             log::warn!("the pass {} is not drawn: the CPU draws, and passes of an App's own need wgpu", pass.name());
