@@ -197,7 +197,7 @@ fn a_policy_acts_on_an_app_s_pass() {
 fn an_app_s_pass_that_fails_is_an_error() {
     let Some(mut stage) = veiled(&square()) else { return };
     let expected = RenderError::Pass { pass: "veil".into(), reason: "there is no VeilAt".into() };
-    assert_eq!(stage.frame().errors, [expected.clone()]);
+    assert_eq!(stage.frame().errors, std::slice::from_ref(&expected));
     assert_eq!(expected.to_string(), "the pass veil is not drawn: there is no VeilAt");
     stage.world().insert_resource(VeilAt(-5.0));
     assert_eq!(pixels(&mut stage), [SQUARE, GREEN]);
