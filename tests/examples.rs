@@ -251,6 +251,24 @@ fn engine_module() {
 }
 
 #[test]
+fn lines_pass() {
+    let file = folder("lines_pass").join("lines_pass.png");
+    draw("lines_pass", &file, &[]);
+    let picture = picture(&file);
+    // One channel is far above both others, as it is nowhere in brass.
+    let is_of = |axis: usize, pixel: [u8; 3]| {
+        (0..3).all(|other| other == axis || u32::from(pixel[axis]) > 60 + 2 * u32::from(pixel[other]))
+    };
+    let along = |axis: usize| picture.pixels().filter(|pixel| is_of(axis, pixel.0)).count();
+    let on_the_cpu = std::env::var("HALFWAY_ADAPTER").is_ok_and(|name| name.starts_with("cpu"));
+    let counts = [0, 1, 2].map(along);
+    assert!(counts.iter().all(|&count| if on_the_cpu { count == 0 } else { count > 20 }), "{counts:?}");
+    // The teapot hides the origin, which lies in the middle of the picture.
+    let middle = imageops::crop_imm(&picture, SIZE.0 / 2 - 4, SIZE.1 / 2 - 3, 8, 6).to_image();
+    assert!(middle.pixels().all(|pixel| (0..3).all(|axis| !is_of(axis, pixel.0))), "a line is before the teapot");
+}
+
+#[test]
 fn soak() {
     let run = |more: &[&str]| {
         let mut command = Command::new(binary("soak"));

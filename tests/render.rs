@@ -35,6 +35,7 @@ mod render {
     mod maps;
     mod order;
     mod painted;
+    mod passes;
     mod picture;
     mod pipelines;
     mod plugins;

@@ -160,6 +160,14 @@ pub enum RenderError {
         /// How many.
         draws: u32,
     },
+    /// A pass of the App's own could not be made ready, and is left out.
+    #[error("the pass {pass} is not drawn: {reason}")]
+    Pass {
+        /// Its name.
+        pass: String,
+        /// The error that it gave.
+        reason: String,
+    },
     /// The device was lost, and the frame with it. The next one is drawn on a new device.
     #[error("the graphics device was lost: {0}. Everything is made anew on a new device")]
     DeviceLost(String),

@@ -10,6 +10,7 @@ pub mod error;
 pub mod geometry;
 pub mod lights;
 pub mod mean;
+pub mod passes;
 mod plugin;
 pub mod report;
 pub mod sets;

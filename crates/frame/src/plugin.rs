@@ -8,6 +8,7 @@ use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
 use crate::lights::surroundings::{self, Surroundings};
 use crate::lights::terms::{self, Chosen};
+use crate::passes::{self, Passes};
 use crate::report::FrameReport;
 use crate::sets::RenderSet;
 use crate::times;
@@ -51,6 +52,7 @@ impl Plugin for FramePlugin {
             .init_resource::<Surroundings>()
             .init_resource::<LitPatches>()
             .init_resource::<Batches>()
+            .init_resource::<Passes>()
             .init_resource::<Workshop>()
             .init_resource::<Geometries>();
         self.add_systems(app);
@@ -100,7 +102,7 @@ pub fn add_backend<B: Backend + Resource<Mutability = Mutable>, M>(
     condition: impl SystemCondition<M>,
 ) {
     let illuminate = lit_patches::illuminate::<B>.in_set(RenderSet::Illuminate).after(gather::gather);
-    let systems = (illuminate, batches::batch::<B>.in_set(RenderSet::Batch));
+    let systems = (illuminate, (batches::batch::<B>, passes::list).chain().in_set(RenderSet::Batch));
     app.add_systems(schedule, systems.run_if(condition));
 }
 

@@ -1,14 +1,16 @@
 //! The counters and the errors of a frame.
 
 use crate::error::RenderError;
+use crate::passes::Pass;
 use bevy_ecs::prelude::Resource;
 
 /// Counters and errors of the newest frame. Counts are exact, so they can be tested.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FrameReport {
     /// Everything that kept the frame from being drawn as asked, in the order found. What an error names is left out of
-    /// the picture, and nothing is left out without one. What goes wrong beside the frames is told here as well, once,
-    /// though nothing is left out for it: a pipeline that a frame can do without.
+    /// the picture, and nothing is left out without one but [`passes_refused`](Self::passes_refused). What goes wrong
+    /// beside the frames is told here as well, once, though nothing is left out for it: a pipeline that a frame can do
+    /// without.
     pub errors: Vec<RenderError>,
     /// Objects with a mesh that are not [hidden](halfway_lighting::Visibility).
     pub objects: u32,
@@ -36,6 +38,10 @@ pub struct FrameReport {
     pub draws: u32,
     /// Triangles in those draws, before culling of faces.
     pub triangles: u64,
+    /// The passes that drew something, in order, and how much each of them drew.
+    pub passes: Vec<Pass>,
+    /// Passes of the App's own that are not drawn, since the [`Cpu`](crate::Cpu) draws.
+    pub passes_refused: u32,
     /// Passes over the finished picture, by an [`Intensity`](halfway_lighting::Intensity) that acts on it: of
     /// [`Cpu`](crate::Cpu) over its memory. 0 under [`Intensity::Clamp`](halfway_lighting::Intensity::Clamp).
     pub picture_passes: u32,
@@ -64,6 +70,10 @@ impl FrameReport {
     /// Starts a frame: everything but the pipelines, which live on, is zeroed.
     pub(crate) fn begin(&mut self) {
         let Self { pipelines, pipelines_live, pipelines_pending, .. } = *self;
+        // Its memory is kept.
+        let mut passes = std::mem::take(&mut self.passes);
+        passes.clear();
         *self = Self { pipelines, pipelines_live, pipelines_pending, ..Self::default() };
+        self.passes = passes;
     }
 }

@@ -25,6 +25,8 @@ pub use gpu::device::Gpu;
 #[cfg(feature = "wgpu")]
 pub use gpu::draw::pass::encode_frame;
 #[cfg(feature = "wgpu")]
+pub use gpu::passes::over::{AddOverPass, OverPass, OverTarget, OverView};
+#[cfg(feature = "wgpu")]
 pub use gpu::pipelines::compile::Compile;
 #[cfg(feature = "wgpu")]
 pub use gpu::surface::{SurfaceLost, SurfaceTarget};
@@ -35,6 +37,7 @@ pub use gpu::timer::GpuTimer;
 pub use halfway_frame::error::RenderError;
 pub use halfway_frame::lights::gather::Lights;
 pub use halfway_frame::lights::terms::Chosen;
+pub use halfway_frame::passes::{Pass, PassCounts, Phase};
 pub use halfway_frame::report::FrameReport;
 pub use halfway_frame::sets::RenderSet;
 pub use halfway_frame::times::{FrameTimes, SetTimes};

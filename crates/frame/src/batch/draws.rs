@@ -2,6 +2,7 @@
 
 use crate::batch::key::DrawKey;
 use crate::geometry::meshes::Form;
+use crate::passes::PassCounts;
 use halfway_asset::AssetId;
 use halfway_mesh::Mesh;
 use std::ops::Range;
@@ -28,6 +29,12 @@ pub struct IndexedDraw {
     pub indices: Range<u32>,
     /// Its instances, among those of the frame.
     pub instances: Range<u32>,
+}
+
+impl IndexedDraw {
+    fn triangles(&self) -> u64 {
+        self.indices.len() as u64 / 3 * self.instances.len() as u64
+    }
 }
 
 /// Draws one after the other that share their state.
@@ -77,7 +84,12 @@ impl Draws {
     }
 
     pub(crate) fn triangles(&self) -> u64 {
-        let of_draw = |draw: &IndexedDraw| draw.indices.len() as u64 / 3 * draw.instances.len() as u64;
-        self.each.iter().map(of_draw).sum()
+        self.each.iter().map(IndexedDraw::triangles).sum()
+    }
+
+    /// How much groups of these draws draw.
+    pub fn counts(&self, groups: &[DrawGroup]) -> PassCounts {
+        let draws = || groups.iter().flat_map(|group| self.of(group));
+        PassCounts { draws: draws().count() as u32, triangles: draws().map(IndexedDraw::triangles).sum() }
     }
 }

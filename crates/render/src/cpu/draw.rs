@@ -4,6 +4,7 @@ use crate::cpu::canvas::{Canvas, CanvasTarget};
 use crate::cpu::device::Cpu;
 use crate::cpu::meshes::MeshPieces;
 use crate::cpu::pass::PassLists;
+use crate::cpu::policy;
 use crate::cpu::raster_error;
 use crate::headless::Headless;
 use crate::picture::Pixels;
@@ -15,10 +16,11 @@ use halfway_frame::batch::key::DrawKey;
 use halfway_frame::batch::lit_patches::LitPatches;
 use halfway_frame::error::RenderError;
 use halfway_frame::lights::surroundings::Surroundings;
+use halfway_frame::passes::{Passes, Phase};
 use halfway_frame::report::FrameReport;
 use halfway_frame::values::{FrameValues, PixelValues};
 use halfway_frame::view::camera::{PictureSize, View};
-use halfway_lighting::{Encoding, Frequency, Intensity, Viewer};
+use halfway_lighting::{Encoding, Frequency, Viewer};
 use halfway_raster::{LARGEST_SIDE, Lens, Pass, PixelFormat};
 
 impl Backend for Cpu {
@@ -75,6 +77,7 @@ pub(crate) fn prepare(
     }
     let written = if is_float { PixelValues::Floats } else { PixelValues::Bytes(camera.encoding) };
     values.0 = Some(written.under(camera.intensity));
+    report.picture_passes = policy::passes(camera.intensity);
 }
 
 /// Draws the frame.
@@ -87,6 +90,7 @@ pub(crate) fn draw(
     lit: Res<LitPatches>,
     batches: Res<Batches>,
     surroundings: Res<Surroundings>,
+    passes: Res<Passes>,
     lists: Res<PassLists>,
     meshes: Res<MeshPieces>,
     mut canvas: ResMut<Canvas>,
@@ -118,11 +122,9 @@ pub(crate) fn draw(
     let (output, clear_tiles) = canvas.output();
     let mut rasterizer = cpu.rasterizer();
     let drawn = rasterizer.draw(&pass, output, clear_tiles);
-    let drawn = drawn.and_then(|()| canvas.finish(&rasterizer, camera.intensity, camera.encoding));
-    report.picture_passes = match camera.intensity {
-        Intensity::Clamp => 0,
-        Intensity::Renormalize { .. } => 2,
-        _ => 1,
+    let drawn = match passes.has(Phase::Policy) {
+        true => drawn.and_then(|()| policy::finish(&mut canvas, &rasterizer, &camera)),
+        false => drawn,
     };
     canvas.end(drawn.is_ok());
     report.errors.extend(drawn.err().map(raster_error));

@@ -5,6 +5,7 @@ pub(crate) mod device;
 pub(crate) mod draw;
 pub(crate) mod meshes;
 pub(crate) mod pass;
+mod policy;
 
 use crate::cpu::canvas::Canvas;
 use crate::cpu::device::Cpu;

@@ -1,4 +1,5 @@
-//! Upload: what the draws read, as the rasterizer takes it.
+//! Upload: what the passes of opaque and blended objects draw, as the rasterizer takes it. It draws the sky with them,
+//! tile by tile.
 
 use crate::cpu::meshes::MeshPieces;
 use bevy_ecs::prelude::*;
@@ -9,6 +10,7 @@ use halfway_frame::batch::key::{DrawKey, MapLook};
 use halfway_frame::batch::lit_patches::LitPatches;
 use halfway_frame::batch::table::{MapUse, MapsUse};
 use halfway_frame::geometry::meshes::Form;
+use halfway_frame::passes::{Passes, groups};
 use halfway_lighting::Reflectance;
 use halfway_mesh::Mesh;
 use halfway_raster::{DrawCall, DrawMaps, MapCall, MapData};
@@ -26,13 +28,14 @@ pub(crate) struct PassLists {
 
 pub(crate) fn fill(
     lit: Res<LitPatches>,
+    passes: Res<Passes>,
     batches: Res<Batches>,
     meshes: Res<MeshPieces>,
     textures: Res<Assets<Texture>>,
     mut pass: ResMut<PassLists>,
 ) {
     pass.fill_maps(&lit.table.maps, &textures);
-    pass.fill_draws(&lit, &batches, &meshes);
+    pass.fill_draws(&lit, (&passes, &batches), &meshes);
 }
 
 impl PassLists {
@@ -67,10 +70,10 @@ impl PassLists {
         DrawMaps { calls, mask, solid: of.solid, inside_out: key.inside_out, surrounded: key.surrounded }
     }
 
-    fn fill_draws(&mut self, lit: &LitPatches, batches: &Batches, meshes: &MeshPieces) {
+    fn fill_draws(&mut self, lit: &LitPatches, (passes, batches): (&Passes, &Batches), meshes: &MeshPieces) {
         self.meshes.clear();
         self.draws.clear();
-        for group in batches.draws.groups() {
+        for group in passes.iter().flat_map(|pass| groups(batches, pass.phase)) {
             let DrawState { key, mesh, form, maps, .. } = group.state;
             if meshes.get(mesh, form).is_none() {
                 continue;

@@ -2,7 +2,7 @@
 
 use crate::gpu::device::Gpu;
 use crate::gpu::format::{drawn_format, headless_format, is_float};
-use crate::gpu::policy::PicturePasses;
+use crate::gpu::passes::policy::PicturePasses;
 use crate::gpu::shaders::picture::PicturePolicyRecord;
 use crate::gpu::surface::{Lost, SurfaceLost, SurfaceTarget};
 use crate::gpu::texture::TextureTarget;

@@ -6,6 +6,7 @@ use crate::gpu::device::Gpu;
 use crate::gpu::draw::meshes::{self as mesh_buffers, MeshBuffers};
 use crate::gpu::draw::pass;
 use crate::gpu::draw::upload::{self, Buffers};
+use crate::gpu::passes::over;
 use crate::gpu::pipelines::cache::{self, Pipelines};
 use crate::gpu::texture;
 use crate::gpu::timer::GpuTimer;
@@ -59,6 +60,7 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
             upload::upload,
             upload::upload_maps,
             upload::upload_surroundings,
+            over::prepare.run_if(over::is_any),
         )
             .chain()
             .in_set(Upload),
@@ -71,6 +73,7 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
             attachments::measure.in_set(View).after(headless::measure).before(ReadCamera),
             systems.run_if(gpu_draws),
             texture::refuse_on_cpu.in_set(View).after(cpu::draw::prepare).run_if(cpu_draws),
+            over::refuse_on_cpu.in_set(Draw).run_if(cpu_draws).run_if(over::is_any),
         ),
     );
 }

@@ -39,7 +39,7 @@ pub(crate) fn run(options: &Options) -> Result {
 pub(crate) const NEEDS: [Need; 3] = [LAVAPIPE, OPENGL, SWIFTSHADER];
 
 /// Tests that need a graphics driver, by file: those whose names begin so, or all of the file.
-const ABOUT_DRIVERS: [(&str, &[&str]); 15] = [
+const ABOUT_DRIVERS: [(&str, &[&str]); 16] = [
     ("crates/render/src/gpu/timer.rs", &["frames_that_are_refused_have_no_time"]),
     ("crates/render/src/gpu/draw/pass.rs", &["nothing_is_left_out_without_an_error"]),
     ("crates/render/src/gpu/pipelines/cache/tests.rs", &[]),
@@ -59,6 +59,7 @@ const ABOUT_DRIVERS: [(&str, &[&str]); 15] = [
     ("tests/render/compile.rs", &[]),
     ("tests/render/devices.rs", &[]),
     ("tests/render/engine.rs", &[]),
+    ("tests/render/passes.rs", &["an_app_s_pass", "a_policy_acts"]),
     ("tests/render/pipelines.rs", &[]),
     (
         "tests/render/counters.rs",

@@ -4,13 +4,15 @@ use crate::gpu::attachments::{Attachments, Delivery, FramePicture, Target};
 use crate::gpu::device::Gpu;
 use crate::gpu::draw::meshes::MeshBuffers;
 use crate::gpu::draw::upload::Buffers;
+use crate::gpu::passes::ScenePasses;
+use crate::gpu::passes::over::OverPasses;
 use crate::gpu::pipelines::cache::Pipelines;
 use crate::gpu::timer::GpuTimer;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use halfway_frame::batch::batches::Batches;
-use halfway_frame::batch::draws::DrawGroup;
 use halfway_frame::error::RenderError;
+use halfway_frame::passes::{Passes, Phase};
 use halfway_frame::report::FrameReport;
 use halfway_frame::times::FrameTimes;
 use halfway_frame::view::camera::View;
@@ -21,10 +23,12 @@ pub(crate) fn draw(
     gpu: Res<Gpu>,
     view: Res<View>,
     target: Res<Target>,
+    list: Res<Passes>,
     batches: Res<Batches>,
     meshes: Res<MeshBuffers>,
     pipelines: Res<Pipelines>,
     buffers: Res<Buffers>,
+    over: Option<Res<OverPasses>>,
     mut timer: Option<ResMut<GpuTimer>>,
     mut report: ResMut<FrameReport>,
 ) {
@@ -32,16 +36,24 @@ pub(crate) fn draw(
     if frame.delivery == Delivery::Encode {
         return;
     }
+    let scene = ScenePasses {
+        list: &list,
+        batches: &batches,
+        meshes: &meshes,
+        pipelines: &pipelines,
+        buffers: &buffers,
+        over: over.as_deref(),
+    };
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
     {
         let timing = timer.as_mut().and_then(|timer| timer.begin(&gpu));
         let [first, last] = around(timing, frame.finished.is_some());
         let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default(), first);
-        let left_out = record(&mut pass, &batches, &meshes, &pipelines, &buffers);
+        let left_out = scene.record(&mut pass);
         let unsaid = unsaid(left_out, &report);
         report.errors.extend(unsaid);
         drop(pass);
-        finish(&mut encoder, &target, frame, last);
+        finish(&mut encoder, (&list, &target), frame, last);
     }
     if let Some(mut timer) = timer {
         timer.end(&mut encoder);
@@ -66,11 +78,11 @@ fn around(timing: TimestampWrites<'_>, others_follow: bool) -> [TimestampWrites<
 /// The passes over the finished picture, where the camera's policy takes any.
 fn finish(
     encoder: &mut wgpu::CommandEncoder,
-    target: &Target,
+    (list, target): (&Passes, &Target),
     frame: &FramePicture,
     timestamp_writes: TimestampWrites<'_>,
 ) {
-    if let (Some(passes), Some(finished)) = (&target.passes, &frame.finished) {
+    if let (true, Some(passes), Some(finished)) = (list.has(Phase::Policy), &target.passes, &frame.finished) {
         passes.record(encoder, finished, timestamp_writes);
     }
 }
@@ -116,65 +128,6 @@ fn unsaid(draws: u32, report: &FrameReport) -> Option<RenderError> {
     (draws > 0 && report.errors.is_empty()).then_some(RenderError::LeftOut { draws })
 }
 
-/// Draws what is there to draw with, and returns how many draws had to be left out.
-fn record(
-    pass: &mut wgpu::RenderPass<'_>,
-    batches: &Batches,
-    meshes: &MeshBuffers,
-    pipelines: &Pipelines,
-    buffers: &Buffers,
-) -> u32 {
-    if let Some((pipeline, surroundings)) = buffers.surroundings.sky() {
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(2, surroundings, &[]);
-        pass.draw(0..3, 0..1);
-    }
-    let groups = batches.draws.groups();
-    let count = |groups: &[DrawGroup]| groups.iter().map(|group| batches.draws.of(group).len()).sum::<usize>() as u32;
-    let Some(instances) = buffers.instances() else { return count(groups) };
-    pass.set_vertex_buffer(0, instances.slice(..));
-    let (mut last, mut left_out) = (None, 0);
-    for group in groups {
-        let state = &group.state;
-        // Until it is drawn.
-        left_out += count(std::slice::from_ref(group));
-        let (Some(pipeline), Some(mesh), Some((bindings, offset))) =
-            (pipelines.get(state.key), meshes.get(state.mesh, state.form), buffers.bindings(state))
-        else {
-            continue;
-        };
-        if last != Some(state.key) {
-            pass.set_pipeline(pipeline);
-            last = Some(state.key);
-        }
-        pass.set_bind_group(0, bindings, &[offset]);
-        pass.set_vertex_buffer(1, mesh.positions.slice(..));
-        if state.key.reads_attributes() {
-            pass.set_vertex_buffer(2, mesh.attributes.slice(..));
-        }
-        if let Some(colors) = mesh.colors.as_ref().filter(|_| state.key.is_painted()) {
-            pass.set_vertex_buffer(3, colors.slice(..));
-        }
-        if state.key.is_mapped() {
-            let (Some(uvs), Some(maps)) = (&mesh.uvs, buffers.maps.group(state.maps)) else { continue };
-            pass.set_vertex_buffer(4, uvs.slice(..));
-            // Where there are no tangents none are looked at.
-            pass.set_vertex_buffer(5, mesh.tangents.as_ref().unwrap_or(uvs).slice(..));
-            pass.set_bind_group(1, maps, &[]);
-        }
-        if state.key.surrounded {
-            let Some(surroundings) = buffers.surroundings.group() else { continue };
-            pass.set_bind_group(2, surroundings, &[]);
-        }
-        pass.set_index_buffer(mesh.indices.slice(..), mesh.index_format);
-        for draw in batches.draws.of(group) {
-            pass.draw_indexed(draw.indices.clone(), 0, draw.instances.clone());
-        }
-        left_out -= count(std::slice::from_ref(group));
-    }
-    left_out
-}
-
 /// Shows the frame where it goes to a window, and asks the device whether it is still there.
 pub(crate) fn present(
     gpu: Res<Gpu>,
@@ -209,17 +162,18 @@ pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result
     };
     let made = || {
         let (batches, meshes) = (world.get_resource::<Batches>()?, world.get_resource::<MeshBuffers>()?);
-        Some((batches, meshes, world.get_resource::<Pipelines>()?, world.get_resource::<Buffers>()?))
+        let (pipelines, buffers) = (world.get_resource::<Pipelines>()?, world.get_resource::<Buffers>()?);
+        let (list, over) = (world.get_resource::<Passes>()?, world.get_resource::<OverPasses>());
+        Some(ScenePasses { list, batches, meshes, pipelines, buffers, over })
     };
-    let (Some((target, frame, attachments, camera)), Some((batches, meshes, pipelines, buffers))) = (ready(), made())
-    else {
+    let (Some((target, frame, attachments, camera)), Some(scene)) = (ready(), made()) else {
         let first = world.get_resource::<FrameReport>().and_then(|report| report.errors.first());
         return Err(first.cloned().unwrap_or(RenderError::NoFrame));
     };
     let mut pass = begin(encoder, frame, attachments, camera, None);
-    let left_out = record(&mut pass, batches, meshes, pipelines, buffers);
+    let left_out = scene.record(&mut pass);
     drop(pass);
-    finish(encoder, target, frame, None);
+    finish(encoder, (scene.list, target), frame, None);
     let unsaid = world.get_resource::<FrameReport>().and_then(|report| unsaid(left_out, report));
     unsaid.map_or(Ok(()), Err)
 }

@@ -1,0 +1,12 @@
+//! The sky: one triangle over the whole picture, behind everything.
+
+use crate::gpu::draw::upload::Buffers;
+
+/// Draws the environment, where what draws it is there.
+pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, buffers: &Buffers) {
+    if let Some((pipeline, surroundings)) = buffers.surroundings.sky() {
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(2, surroundings, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}
