@@ -14,6 +14,7 @@ use crate::draw::{pass, replaced};
 use crate::frame::report::FrameReport;
 use crate::frame::sets::RenderSet;
 use crate::frame::times;
+use crate::frame::told::{self, Told};
 use crate::geometry::meshes::{self, Geometries};
 use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
@@ -22,6 +23,7 @@ use crate::lights::terms::{self, Chosen};
 use crate::pipelines::cache::{self, Pipelines};
 use crate::target::canvas::Canvas;
 use crate::target::frame::{self, FrameValues, Headless, Target};
+use crate::target::picture::DrawnIn;
 use crate::view::camera::{self, PictureSize, View};
 use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
 use bevy_app::{App, Plugin, PostUpdate};
@@ -38,6 +40,9 @@ use halfway_texture::TexturePlugin;
 /// Needs `GlobalTransform`s to be current: it runs after `TransformSystems::Propagate` where that set
 /// is in the same schedule, and an App with a schedule of its own propagates before. Where nothing propagates them, the
 /// frame is not drawn, and [`FrameReport::errors`] says so.
+///
+/// Each error of a frame, and each warning, is logged once (by the `log` crate): an opacity that is not shown without
+/// [`Blend`](halfway_lighting::Blend), and why a picture shows nothing ([`why_empty`](crate::why_empty)).
 ///
 /// Brings [`MeshPlugin`] and [`LightingPlugin`]. May be added before or after other plugins, and to an App that has
 /// cameras, lights and objects already.
@@ -56,9 +61,11 @@ impl Default for RenderPlugin {
 impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins((MeshPlugin, LightingPlugin, TexturePlugin))
+            .insert_resource(DrawnIn(self.schedule))
             .init_resource::<AdapterChoice>()
             .init_resource::<Headless>()
             .init_resource::<FrameReport>()
+            .init_resource::<Told>()
             .init_resource::<Target>()
             .init_resource::<Canvas>()
             .init_resource::<FrameValues>()
@@ -138,6 +145,8 @@ impl RenderPlugin {
             on_canvas::draw.in_set(Draw),
         );
         app.add_systems(self.schedule, (on_gpu.run_if(gpu_draws), on_cpu.run_if(cpu_draws)));
+        let tell = (told::tell_errors, told::tell_of_opacity, told::tell_why_empty.run_if(told::may_be_empty));
+        app.add_systems(self.schedule, tell.chain().after(Deliver));
     }
 }
 

@@ -4,3 +4,5 @@ pub(crate) mod mean;
 pub(crate) mod report;
 pub(crate) mod sets;
 pub(crate) mod times;
+pub(crate) mod told;
+pub(crate) mod why_empty;
