@@ -53,4 +53,5 @@ mod render {
     mod transforms;
     mod values;
     mod visibility;
+    mod why_empty;
 }
