@@ -22,22 +22,48 @@ fn an_empty_picture_has_its_reason() {
     let inside = EmptyReason::CameraInside { entity: "\"ball\"".into() };
     let rows: [Row; 10] = [
         (|_, _| {}, None),
-        (|world, [_, camera, _]| drop(world.despawn(camera)), Some(EmptyReason::NoCamera)),
-        (|world, [ball, ..]| drop(world.despawn(ball)), Some(EmptyReason::NoObject)),
-        (|world, [ball, ..]| drop(world.entity_mut(ball).insert(Visibility::Hidden)), Some(EmptyReason::AllHidden(1))),
         (
-            |world, [ball, ..]| drop(world.entity_mut(ball).insert(Mesh3d(Handle::default()))),
+            |world, [_, camera, _]| {
+                world.despawn(camera);
+            },
+            Some(EmptyReason::NoCamera),
+        ),
+        (
+            |world, [ball, ..]| {
+                world.despawn(ball);
+            },
+            Some(EmptyReason::NoObject),
+        ),
+        (
+            |world, [ball, ..]| {
+                world.entity_mut(ball).insert(Visibility::Hidden);
+            },
+            Some(EmptyReason::AllHidden(1)),
+        ),
+        (
+            |world, [ball, ..]| {
+                world.entity_mut(ball).insert(Mesh3d(Handle::default()));
+            },
             Some(EmptyReason::NoMesh(1)),
         ),
         (
-            |world, [_, camera, _]| drop(world.entity_mut(camera).insert(Transform::from_xyz(0.0, 0.0, -4.0))),
+            |world, [_, camera, _]| {
+                world.entity_mut(camera).insert(Transform::from_xyz(0.0, 0.0, -4.0));
+            },
             Some(EmptyReason::AllBehind(1)),
         ),
         (
-            |world, [_, camera, _]| drop(world.entity_mut(camera).insert(Transform::from_xyz(40.0, 0.0, 4.0))),
+            |world, [_, camera, _]| {
+                world.entity_mut(camera).insert(Transform::from_xyz(40.0, 0.0, 4.0));
+            },
             Some(EmptyReason::AllOutside(1)),
         ),
-        (|world, [.., light]| drop(world.despawn(light)), Some(EmptyReason::NoLight(1))),
+        (
+            |world, [.., light]| {
+                world.despawn(light);
+            },
+            Some(EmptyReason::NoLight(1)),
+        ),
         (
             |world, [ball, _, light]| {
                 world.despawn(light);
@@ -45,7 +71,12 @@ fn an_empty_picture_has_its_reason() {
             },
             None,
         ),
-        (|world, [_, camera, _]| drop(world.entity_mut(camera).insert(Transform::default())), Some(inside)),
+        (
+            |world, [_, camera, _]| {
+                world.entity_mut(camera).insert(Transform::default());
+            },
+            Some(inside),
+        ),
     ];
     for (row, (change, expected)) in rows.into_iter().enumerate() {
         let (mut app, entities) = app();

@@ -41,7 +41,8 @@ use halfway_texture::TexturePlugin;
 /// is in the same schedule, and an App with a schedule of its own propagates before. Where nothing propagates them, the
 /// frame is not drawn, and [`FrameReport::errors`] says so.
 ///
-/// Each error of a frame, and each warning, is logged once (by the `log` crate): an opacity that is not shown without
+/// Each error of a frame is logged once by the `log` crate (target `halfway_render::errors`; a window says them
+/// itself), and so is each warning: an opacity that is not shown without
 /// [`Blend`](halfway_lighting::Blend), and why a picture shows nothing ([`why_empty`](crate::why_empty)).
 ///
 /// Brings [`MeshPlugin`] and [`LightingPlugin`]. May be added before or after other plugins, and to an App that has

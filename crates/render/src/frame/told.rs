@@ -9,6 +9,8 @@ use halfway_mesh::Mesh3d;
 use crate::error::label;
 use crate::frame::report::FrameReport;
 use crate::frame::why_empty::{EmptyReason, why_empty};
+use crate::target::canvas::CanvasTarget;
+use crate::target::surface::SurfaceTarget;
 
 /// The messages that have been logged.
 #[derive(Resource, Default)]
@@ -24,12 +26,23 @@ impl Told {
     }
 }
 
-/// Logs each error of the frame.
-pub(crate) fn tell_errors(report: Res<FrameReport>, mut told: ResMut<Told>) {
+/// Logs each error of the frame, unless a window shows the frames: it says errors itself, also without a logger.
+///
+/// The target has a name of its own, so that a program that prints what
+/// [`render_picture`](crate::render_picture) returns can turn these off.
+pub(crate) fn tell_errors(
+    report: Res<FrameReport>,
+    surface: Option<Res<SurfaceTarget>>,
+    canvas: Option<Res<CanvasTarget>>,
+    mut told: ResMut<Told>,
+) {
+    if surface.is_some() || canvas.is_some() {
+        return;
+    }
     for error in &report.errors {
         let message = error.to_string();
         if told.is_new(&message) {
-            log::error!("{message}");
+            log::error!(target: "halfway_render::errors", "{message}");
         }
     }
 }
