@@ -22,6 +22,7 @@
 //! plugins; all else is re-exported from crates of one subject each: [`mesh`], [`texture`], [`asset`], [`lighting`],
 //! [`scene`], [`render`], [`mod@reference`], [`record`], [`output`] and, with the feature `window`, `window`.
 
+pub mod beside_bevy;
 pub mod prelude;
 
 mod demo;

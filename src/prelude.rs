@@ -1,9 +1,15 @@
-//! Everything that a scene in code needs, in one `use`.
+//! A scene in code takes one `use halfway::prelude::*`.
+//!
+//! It holds bevy's derives, too: `#[derive(Component)]` and `#[derive(Resource)]` work in a package that depends on
+//! halfway alone, since the prelude brings the crates that they name, `bevy_ecs` and `bevy_app`, into the module.
+//! (`#[derive(Reflect)]` is not among them: halfway does without reflection.)
+//!
+//! Beside bevy's own prelude, which has a `Mesh` and a `Camera` of its own, use [`beside_bevy`](crate::beside_bevy).
 
 pub use crate::HalfwayPlugins;
-pub use bevy_app::prelude::*;
+pub use bevy_app::{self, prelude::*};
 pub use bevy_color::{Color, ColorToComponents as _, Gray as _, LinearRgba, Srgba};
-pub use bevy_ecs::prelude::*;
+pub use bevy_ecs::{self, prelude::*};
 pub use bevy_math::{EulerRot, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
 pub use bevy_time::{Fixed, Real, Time, Virtual};
 pub use bevy_transform::prelude::{GlobalTransform, Transform, TransformPlugin};
@@ -14,10 +20,14 @@ pub use halfway_lighting::{
     Terms, Tolerance, VertexColors, ViewTolerance, Viewer, Visibility,
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
+pub use halfway_record::output::SavePicture;
 #[cfg(feature = "wgpu")]
 pub use halfway_render::Compile;
-pub use halfway_render::{FrameReport, Headless, Picture, Pixels, RenderPlugin, RenderSet, render_picture};
+pub use halfway_render::{
+    FrameReport, Headless, Picture, Pixels, RenderError, RenderPlugin, RenderSet, render_picture, take_picture,
+};
 pub use halfway_scene::import::{ModelMaterial, model_light};
+pub use halfway_scene::{ModelParts, ModelRoot, spawn_model};
 pub use halfway_texture::{MapKind, Maps, Sampling, SolidKind, SolidTexture, SurfaceMap, Texture, TexturePlugin};
 #[cfg(feature = "window")]
 pub use halfway_window::{OrbitCamera, OrbitCameraPlugin, ViewerKeysPlugin, WindowPlugin, WindowTitle};

@@ -54,4 +54,5 @@ mod render {
     mod transforms;
     mod values;
     mod visibility;
+    mod why_empty;
 }

@@ -3,10 +3,21 @@
 use bevy_ecs::prelude::Entity;
 use bevy_transform::components::GlobalTransform;
 use halfway_lighting::InvalidValue;
+use std::fmt;
 use thiserror::Error;
 
 /// Why a frame could not be drawn as asked.
-#[derive(Clone, Debug, Error, PartialEq)]
+///
+/// Its `Debug` reads as its message, so that `fn main() -> Result<(), RenderError>` prints a sentence:
+///
+/// ```
+/// use halfway_render::RenderError;
+///
+/// let error = RenderError::NoCamera;
+/// assert_eq!(format!("{error:?}"), error.to_string());
+/// assert!(error.to_string().starts_with("there is no camera: spawn one with"));
+/// ```
+#[derive(Clone, Error, PartialEq)]
 #[non_exhaustive]
 pub enum RenderError {
     /// No graphics adapter was found.
@@ -16,7 +27,7 @@ pub enum RenderError {
     )]
     NoAdapter,
     /// Of the backends that the environment allows none has an adapter.
-    #[error("no graphics adapter: none answered by {backends}, and WGPU_BACKEND lets nothing else be asked")]
+    #[error("no graphics adapter: none answered by {backends}, and WGPU_BACKEND lets nothing else be asked; unset it")]
     NoAdapterAmong {
         /// The value of `WGPU_BACKEND`.
         backends: String,
@@ -30,7 +41,9 @@ pub enum RenderError {
         there: Vec<String>,
     },
     /// The adapter was found but would not open.
-    #[error("the adapter {adapter} could not be opened: {reason}")]
+    #[error(
+        "the adapter {adapter} could not be opened: {reason}. Choose another by `AdapterChoice`, or let the CPU draw (`AdapterChoice::cpu()`)"
+    )]
     NoDevice {
         /// The adapter's name.
         adapter: String,
@@ -73,7 +86,7 @@ pub enum RenderError {
         entity: String,
     },
     /// The headless picture has no pixels.
-    #[error("the picture is {width} × {height} pixels; expected at least 1 × 1")]
+    #[error("the picture is {width} × {height} pixels; expected at least 1 × 1 (`Headless::size`)")]
     EmptyPicture {
         /// Its width in pixels.
         width: u32,
@@ -81,7 +94,7 @@ pub enum RenderError {
         height: u32,
     },
     /// There is nothing to look through.
-    #[error("the scene has no camera: spawn an entity with a `Camera` and a `Transform`")]
+    #[error("there is no camera: spawn one with `(Camera::default(), Transform::from_xyz(0.0, 0.0, 5.0))`")]
     NoCamera,
     /// More than one camera is in the world.
     #[error("the scene has {0} cameras and only one can be drawn; keep one `Camera` component")]
@@ -98,13 +111,15 @@ pub enum RenderError {
     )]
     ImagesInEnvironment(usize),
     /// An object's mesh handle leads to no mesh.
-    #[error("{entity}: its mesh is not in `Assets<Mesh>` (was it removed, or never added?)")]
+    #[error(
+        "{entity}: its mesh is not in `Assets<Mesh>` (was it removed, or never added?); show what `Assets::add` returns"
+    )]
     MissingMesh {
         /// The entity that carries the handle.
         entity: String,
     },
     /// A buffer or a picture is larger than the adapter can hold.
-    #[error("{what} needs {needed}, and the adapter's limit is {limit}")]
+    #[error("{what} needs {needed}, and the adapter's limit is {limit}; make it smaller, or choose another adapter")]
     TooLarge {
         /// The thing that did not fit.
         what: String,
@@ -114,7 +129,7 @@ pub enum RenderError {
         limit: u64,
     },
     /// The system refuses memory.
-    #[error("{bytes} bytes of memory for {what} were refused")]
+    #[error("{bytes} bytes of memory for {what} were refused; free some, or draw a smaller picture or scene")]
     Memory {
         /// The purpose of the memory.
         what: String,
@@ -131,7 +146,7 @@ pub enum RenderError {
         cannot: String,
     },
     /// There is no headless picture to read.
-    #[error("there is no headless target to read a picture from: add `Headless`")]
+    #[error("there is no headless picture to read: add `RenderPlugin` without a window, and draw a frame")]
     NoPicture,
     /// There is no frame to encode.
     #[error(
@@ -179,6 +194,12 @@ pub enum RenderError {
     Cpu(String),
 }
 
+impl fmt::Debug for RenderError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
 fn listed(adapters: &[String]) -> String {
     if adapters.is_empty() { "there is none".into() } else { format!("there are:\n  {}", adapters.join("\n  ")) }
 }
@@ -194,7 +215,7 @@ pub(crate) fn bad_transform(
 }
 
 /// An entity's name for an error: its `Name`, or its number.
-pub(crate) fn label(entity: Entity, name: Option<&bevy_ecs::name::Name>) -> String {
+pub fn label(entity: Entity, name: Option<&bevy_ecs::name::Name>) -> String {
     name.map_or_else(|| format!("entity {entity}"), |name| format!("\"{name}\""))
 }
 

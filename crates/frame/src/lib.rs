@@ -17,5 +17,6 @@ pub mod sets;
 pub mod times;
 pub mod values;
 pub mod view;
+pub mod why_empty;
 
 pub use plugin::{FramePlugin, ReadCamera, add_backend};

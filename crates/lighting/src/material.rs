@@ -77,19 +77,49 @@ impl Material {
     };
 
     /// A surface without a highlight: ambient and diffuse are `color`.
-    pub const fn matte(color: LinearRgba) -> Self {
+    ///
+    /// Every constructor takes any colour of `bevy_color` and converts it to linear RGB:
+    ///
+    /// ```
+    /// use bevy_color::{Color, LinearRgba, Srgba};
+    /// use halfway_lighting::Material;
+    ///
+    /// let orange = Material::matte(Srgba::rgb_u8(255, 128, 0));
+    /// assert_eq!(orange, Material::matte(Color::srgb_u8(255, 128, 0)));
+    /// // sRGB 128 of 255 is 0.216 of linear light.
+    /// assert!((orange.diffuse.green - 0.216).abs() < 1e-3);
+    /// assert_eq!(Material::matte(LinearRgba::RED).diffuse, LinearRgba::RED);
+    /// ```
+    pub fn matte(color: impl Into<LinearRgba>) -> Self {
+        let color = color.into();
         Self { ambient: color, diffuse: color, ..Self::DEFAULT }
     }
 
     /// A coloured surface with a half-bright white highlight of shininess 32: ambient and diffuse are `color`, specular
     /// is 0.5 grey, since plastic reflects at its surface without colouring the light.
-    pub const fn plastic(color: LinearRgba) -> Self {
+    ///
+    /// ```
+    /// use bevy_color::{Color, LinearRgba};
+    /// use halfway_lighting::Material;
+    ///
+    /// let ball = Material::plastic(Color::linear_rgb(0.8, 0.1, 0.1));
+    /// assert_eq!(ball.specular, LinearRgba::rgb(0.5, 0.5, 0.5));
+    /// ```
+    pub fn plastic(color: impl Into<LinearRgba>) -> Self {
         Self { specular: LinearRgba::rgb(0.5, 0.5, 0.5), ..Self::matte(color) }
     }
 
     /// A surface that shines by itself and takes no light: emission is `color`, all else black.
-    pub const fn emissive(color: LinearRgba) -> Self {
-        Self { emission: color, ..Self::matte(LinearRgba::BLACK) }
+    ///
+    /// ```
+    /// use bevy_color::{Color, LinearRgba};
+    /// use halfway_lighting::Material;
+    ///
+    /// let bulb = Material::emissive(Color::WHITE);
+    /// assert_eq!((bulb.emission, bulb.diffuse), (LinearRgba::WHITE, LinearRgba::BLACK));
+    /// ```
+    pub fn emissive(color: impl Into<LinearRgba>) -> Self {
+        Self { emission: color.into(), ..Self::matte(LinearRgba::BLACK) }
     }
 
     /// Checks every field.

@@ -73,9 +73,9 @@ pub enum MeshError {
         count: usize,
     },
     /// An attribute has more or fewer values than there are vertices.
-    #[error("{found} {attribute}s for {expected} positions; one a vertex is expected")]
+    #[error("{found} {attribute}s for {expected} vertices; one a vertex is expected")]
     CountMismatch {
-        /// `"normal"`, `"uv"` or `"colour"`.
+        /// `"position"`, `"normal"`, `"uv"` or `"colour"`.
         attribute: &'static str,
         /// How many there are.
         found: usize,
@@ -196,6 +196,61 @@ impl Mesh {
             surface: None,
         };
         Self { data: Arc::new(data) }
+    }
+
+    /// Moves the vertices; triangles, texture coordinates and colours stay, and so do the normals and tangents until
+    /// [`set_normals`](Self::set_normals).
+    ///
+    /// This is the cheap way to change a mesh each frame: nothing is made anew but the bounds, and nothing is copied
+    /// unless another clone of the mesh holds its data. A formula gives the normals at less cost than
+    /// [`with_normals`](Self::with_normals), which sums them over the triangles.
+    ///
+    /// ```
+    /// use bevy_math::{Vec2, Vec3};
+    /// use halfway_mesh::{Mesh, MeshError, Plane};
+    ///
+    /// // A wave along x: height a·sin(x), normal (−a·cos(x), 1, 0), scaled to unit length.
+    /// fn wave(mesh: &mut Mesh, a: f32) -> Result<(), MeshError> {
+    ///     let moved: Vec<Vec3> = mesh.positions().iter().map(|p| Vec3::new(p.x, a * p.x.sin(), p.z)).collect();
+    ///     mesh.set_normals(moved.iter().map(|p| Vec3::new(-a * p.x.cos(), 1.0, 0.0)).collect())?;
+    ///     mesh.set_positions(moved)
+    /// }
+    ///
+    /// let mut mesh = Mesh::from(Plane { size: 4.0, divisions: 9 });
+    /// wave(&mut mesh, 0.5).unwrap();
+    /// assert!(mesh.bounds().max.y > 0.4);
+    /// assert!(mesh.set_positions(vec![Vec3::ZERO]).is_err());
+    /// ```
+    ///
+    /// A mesh that stood for a [surface](Self::surface) does so no longer.
+    ///
+    /// # Errors
+    /// Not one position a vertex, or one that is not finite. The mesh then is as it was.
+    pub fn set_positions(&mut self, positions: Vec<Vec3>) -> Result<(), MeshError> {
+        let vertices = self.positions().len();
+        check_attribute("position", vertices, positions.iter().map(Vec3::to_array))?;
+        let data = Arc::make_mut(&mut self.data);
+        if let Some(bounds) = Bounds::from_points(positions.iter().copied()) {
+            data.bounds = bounds;
+        }
+        data.positions = positions;
+        data.surface = None;
+        Ok(())
+    }
+
+    /// Gives the vertices other normals, scaled to unit length; those of zero length are replaced by the default
+    /// weighting's of the positions that there are. Tangents, which belong to the old normals, are dropped.
+    ///
+    /// # Errors
+    /// Not one normal a vertex, or one that is not finite. The mesh then is as it was.
+    pub fn set_normals(&mut self, normals: Vec<Vec3>) -> Result<(), MeshError> {
+        let vertices = self.positions().len();
+        check_attribute("normal", vertices, normals.iter().map(Vec3::to_array))?;
+        let (normals, _) = kept_normals(normals, self.positions(), self.indices());
+        let data = Arc::make_mut(&mut self.data);
+        data.normals = normals;
+        data.tangents = None;
+        Ok(())
     }
 
     /// The mesh with a colour a vertex: linear RGB and opacity.

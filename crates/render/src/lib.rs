@@ -15,6 +15,7 @@ mod headless;
 mod picture;
 mod plugin;
 mod replaced;
+mod told;
 
 pub use adapter::Adapter;
 pub use choice::AdapterChoice;
@@ -43,8 +44,9 @@ pub use halfway_frame::sets::RenderSet;
 pub use halfway_frame::times::{FrameTimes, SetTimes};
 pub use halfway_frame::view::camera::{Projection, View};
 pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
+pub use halfway_frame::why_empty::{EmptyReason, why_empty};
 pub use headless::Headless;
-pub use picture::{PendingPicture, Picture, Pixels, render_picture};
+pub use picture::{PendingPicture, Picture, Pixels, render_picture, take_picture};
 pub use plugin::RenderPlugin;
 /// The wgpu that the renderer speaks; surfaces are made with it.
 #[cfg(feature = "wgpu")]

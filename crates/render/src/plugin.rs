@@ -6,7 +6,9 @@ use crate::cpu::device::Cpu;
 #[cfg(feature = "wgpu")]
 use crate::gpu::{self, device::Gpu};
 use crate::headless::{self, Headless};
+use crate::picture::DrawnIn;
 use crate::replaced;
+use crate::told::{self, Told};
 use bevy_app::{App, Plugin, PostUpdate};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
@@ -21,7 +23,12 @@ use halfway_frame::{FramePlugin, ReadCamera};
 /// is in the same schedule, and an App with a schedule of its own propagates before. Where nothing propagates them, the
 /// frame is not drawn, and [`FrameReport::errors`] says so.
 ///
-/// Brings [`FramePlugin`] and the plugins of meshes, lighting and textures. May be added before or after other plugins, and to an App that has
+/// Each error of a frame is logged once by the `log` crate (target `halfway_render::errors`; a window says them
+/// itself), and so is each warning: an opacity that is not shown without
+/// [`Blend`](halfway_lighting::Blend), and why a picture shows nothing ([`why_empty`](crate::why_empty)).
+///
+/// Brings [`FramePlugin`] and the plugins of meshes, lighting and textures. May be added before or after other plugins,
+/// and to an App that has
 /// cameras, lights and objects already.
 #[derive(Clone, Debug)]
 pub struct RenderPlugin {
@@ -38,6 +45,8 @@ impl Default for RenderPlugin {
 impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins(FramePlugin { schedule: self.schedule })
+            .insert_resource(DrawnIn(self.schedule))
+            .init_resource::<Told>()
             .init_resource::<AdapterChoice>()
             .init_resource::<Headless>()
             .add_systems(
@@ -45,6 +54,9 @@ impl Plugin for RenderPlugin {
                 (
                     headless::measure.in_set(RenderSet::View).before(ReadCamera),
                     (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
+                    (told::tell_errors, told::tell_of_opacity, told::tell_why_empty.run_if(told::may_be_empty))
+                        .chain()
+                        .after(RenderSet::Deliver),
                 ),
             );
         cpu::add(app, self.schedule);

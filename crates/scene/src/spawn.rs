@@ -100,14 +100,14 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
     Ok(Spawned { camera, objects: frames, lights, warnings })
 }
 
-type Object<'a> = (&'a ObjectEntry, Rc<ObjectShape>);
+pub(crate) type Object<'a> = (&'a ObjectEntry, Rc<ObjectShape>);
 
 /// The handle of every mesh that has been added, by where its data is: meshes that share data share a handle. All of
 /// them outlive this map, in the shapes.
-type Handles = HashMap<*const Vec3, Handle<Mesh>>;
+pub(crate) type Handles = HashMap<*const Vec3, Handle<Mesh>>;
 
 /// The same of textures.
-type TextureHandles = HashMap<*const [f32; 4], Handle<Texture>>;
+pub(crate) type TextureHandles = HashMap<*const [f32; 4], Handle<Texture>>;
 
 fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Entity {
     let entry = scene.camera.unwrap_or_else(|| {
@@ -175,24 +175,49 @@ fn spawn_object(
 ) -> Entity {
     let name = object.name.clone().unwrap_or_else(|| format!("objects[{index}]"));
     let frame = spawn_frame(&Placement::from_matrix(&object.transform.matrix()), None, &name, world);
-    let single = matches!(shape.parts.as_slice(), [part] if part.object_from_part == Mat4::IDENTITY);
-    for (i, part) in shape.parts.iter().enumerate() {
-        let mesh = handles
-            .entry(part.mesh.positions().as_ptr())
-            .or_insert_with(|| world.resource_mut::<Assets<Mesh>>().add(part.mesh.clone()))
-            .clone();
-        let entity = if single {
-            frame
-        } else {
-            let name = if part.name.is_empty() { format!("parts[{i}]") } else { part.name.clone() };
-            spawn_frame(&Placement::from_matrix(&part.object_from_part), Some(frame), &name, world)
-        };
-        dress(object, part, mesh, &mut world.entity_mut(entity));
-        if object.material.is_none() && object.maps.is_none() {
-            hang_own_maps(part, textures, entity, world);
-        }
+    if let [part] = shape.parts.as_slice()
+        && part.object_from_part == Mat4::IDENTITY
+    {
+        dress_whole(object, part, (handles, textures), frame, world);
+    } else {
+        spawn_parts(object, frame, shape, (handles, textures), world);
     }
     frame
+}
+
+/// Spawns the parts of a shape as children of its frame, and gives their entities.
+pub(crate) fn spawn_parts(
+    object: &ObjectEntry,
+    frame: Entity,
+    shape: &ObjectShape,
+    (handles, textures): (&mut Handles, &mut TextureHandles),
+    world: &mut World,
+) -> Vec<Entity> {
+    let spawn_part = |(i, part): (usize, &ShapePart)| {
+        let name = if part.name.is_empty() { format!("parts[{i}]") } else { part.name.clone() };
+        let entity = spawn_frame(&Placement::from_matrix(&part.object_from_part), Some(frame), &name, world);
+        dress_whole(object, part, (handles, textures), entity, world);
+        entity
+    };
+    shape.parts.iter().enumerate().map(spawn_part).collect()
+}
+
+/// Gives an entity a part: its mesh, its looks and the images of its own material.
+fn dress_whole(
+    object: &ObjectEntry,
+    part: &ShapePart,
+    (handles, textures): (&mut Handles, &mut TextureHandles),
+    entity: Entity,
+    world: &mut World,
+) {
+    let mesh = handles
+        .entry(part.mesh.positions().as_ptr())
+        .or_insert_with(|| world.resource_mut::<Assets<Mesh>>().add(part.mesh.clone()))
+        .clone();
+    dress(object, part, mesh, &mut world.entity_mut(entity));
+    if object.material.is_none() && object.maps.is_none() {
+        hang_own_maps(part, textures, entity, world);
+    }
 }
 
 /// An entity at a placement; the inner of two where it shears.
@@ -323,7 +348,8 @@ fn spawn_lights(
     entries.iter().enumerate().map(spawn_entry).collect()
 }
 
-fn spawn_own_lights(objects: &[Object], frames: &[Entity], world: &mut World) -> Vec<Entity> {
+/// Spawns the lights of models as children of their objects.
+pub(crate) fn spawn_own_lights(objects: &[Object], frames: &[Entity], world: &mut World) -> Vec<Entity> {
     let mut lights = Vec::new();
     for ((_, shape), &frame) in objects.iter().zip(frames) {
         for light in &shape.lights {

@@ -96,7 +96,12 @@ impl Feature {
     pub(crate) const BASELINE: Self = Self {
         name: "one directional light (the baseline)",
         lights: FeatureLights::Directional(1),
-        material: Material { specular: LinearRgba::rgb(0.35, 0.35, 0.35), ..Material::matte(COLOR) },
+        material: Material {
+            ambient: COLOR,
+            diffuse: COLOR,
+            specular: LinearRgba::rgb(0.35, 0.35, 0.35),
+            ..Material::DEFAULT
+        },
         back: None,
         reflectance: Reflectance::BlinnPhong,
         viewer: Viewer::Local,

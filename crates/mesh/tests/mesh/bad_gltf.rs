@@ -77,13 +77,13 @@ const ROWS: &[Row] = &[
         "fewer normals than positions",
         "\"bufferView\":1,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3",
         "\"bufferView\":1,\"componentType\":5126,\"type\":\"VEC3\",\"count\":2",
-        "meshes[0].primitives[0]: 2 normals for 3 positions",
+        "meshes[0].primitives[0]: 2 normals for 3 vertices",
     ),
     (
         "fewer texture coordinates",
         "\"VEC2\",\"count\":3",
         "\"VEC2\",\"count\":1",
-        "meshes[0].primitives[0]: 1 uvs for 3 positions",
+        "meshes[0].primitives[0]: 1 uvs for 3 vertices",
     ),
     (
         "two indices",

@@ -4,7 +4,7 @@ use bevy_app::App;
 use bevy_math::{Vec2, Vec3};
 use bevy_transform::components::Transform;
 use halfway_asset::Assets;
-use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshError, MeshPlugin, NormalWeighting, Normals, Problems, UvSphere};
+use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshError, MeshPlugin, NormalWeighting, Normals, Plane, Problems, UvSphere};
 
 fn triangle() -> Vec<Vec3> {
     vec![Vec3::ZERO, Vec3::X, Vec3::Y]
@@ -212,4 +212,26 @@ fn adding_the_mesh_plugin_again_keeps_meshes() {
     app.update();
     app.update();
     assert!(app.world().resource::<Assets<Mesh>>().get(id).is_none());
+}
+
+#[test]
+fn moved_vertices_keep_what_is_theirs() {
+    let plane = Mesh::from(Plane { size: 2.0, divisions: 3 });
+    let mut mesh = plane.clone();
+    let moved: Vec<Vec3> = plane.positions().iter().map(|p| *p + Vec3::Y * p.x).collect();
+    mesh.set_positions(moved.clone()).unwrap();
+    assert_eq!((mesh.positions(), mesh.normals()), (moved.as_slice(), plane.normals()));
+    assert_eq!((mesh.uvs(), mesh.indices()), (plane.uvs(), plane.indices()));
+    assert_eq!((mesh.bounds().min.y, mesh.bounds().max.y), (-1.0, 1.0));
+    assert_eq!(plane.bounds().max.y, 0.0, "a clone is not changed");
+    assert!(mesh.surface().is_none());
+    mesh.set_normals(vec![Vec3::X * 3.0; moved.len()]).unwrap();
+    assert!(mesh.normals().iter().all(|n| *n == Vec3::X));
+
+    let before = mesh.clone();
+    let error = mesh.set_positions(vec![Vec3::ZERO]).unwrap_err().to_string();
+    assert!(error.contains(&format!("1 positions for {} vertices", moved.len())), "{error}");
+    assert!(mesh.set_positions(vec![Vec3::NAN; moved.len()]).is_err());
+    assert!(mesh.set_normals(vec![Vec3::NAN; moved.len()]).is_err());
+    assert_eq!(mesh, before);
 }

@@ -30,7 +30,7 @@ pub enum OutputError {
     /// A picture of 8 bits a channel in a format of more.
     #[error(
         "{}: the picture was drawn with 8 bits a channel, which this format would only pretend to refine; \
-         draw it in floating point",
+         draw it in floating point (`Headless {{ pixels: Pixels::Float, .. }}`)",
         file.display()
     )]
     TooCoarse {

@@ -31,7 +31,7 @@ pub use encode::to_bytes;
 pub use error::OutputError;
 pub use format::PictureFormat;
 pub use partial::write_text;
-pub use picture::write_picture;
+pub use picture::{SavePicture, write_picture};
 
 #[cfg(test)]
 mod tests;

@@ -43,7 +43,43 @@ pub fn write_picture(
     }
 }
 
-/// Three channels of 16 bits, in big-endian order as in PNG.
+/// Writes a picture by the ending of a file's name.
+pub trait SavePicture {
+    /// Writes the picture to `file`, replacing one that is there: `.png` gets 8 bits a channel, `.exr` 32-bit floats.
+    ///
+    /// A PNG is sRGB, as a camera draws by default; a picture drawn under [`Encoding::Raw`], and a PNG of 16 bits, take
+    /// [`write_picture`]. An EXR takes a picture drawn in floating point: insert
+    /// [`Headless`](halfway_render::Headless) with [`Pixels::Float`](halfway_render::Pixels::Float) before the frame.
+    ///
+    /// ```
+    /// use halfway_record::output::{OutputError, SavePicture};
+    /// use halfway_render::Picture;
+    ///
+    /// let picture = Picture::Byte(image::RgbaImage::new(4, 3));
+    /// let file = std::env::temp_dir().join("halfway_save_picture.png");
+    /// picture.save(&file)?;
+    /// assert_eq!(image::image_dimensions(&file).unwrap(), (4, 3));
+    /// # std::fs::remove_file(&file).unwrap();
+    ///
+    /// let error = picture.save("teapot.bmp").unwrap_err();
+    /// assert!(error.to_string().contains("expected a file that ends in .png or .exr"));
+    /// # Ok::<(), OutputError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`OutputError::UnknownEnding`] for any other ending, [`OutputError::TooCoarse`] for an EXR of a byte picture, and
+    /// those of [`write_picture`].
+    fn save(&self, file: impl AsRef<Path>) -> Result<(), OutputError>;
+}
+
+impl SavePicture for Picture {
+    fn save(&self, file: impl AsRef<Path>) -> Result<(), OutputError> {
+        let file = file.as_ref();
+        write_picture(self, file, PictureFormat::from_path(file, None)?, Encoding::Srgb)
+    }
+}
+
+/// Three channels of 16 bits, the high byte first as PNG has them.
 fn sixteen_bits(image: &Rgba32FImage, encoding: Encoding) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(image.as_raw().len() / 4 * 6);
     for pixel in image.pixels() {

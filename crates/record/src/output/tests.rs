@@ -65,6 +65,26 @@ fn chunks(file: &Path) -> Vec<String> {
 }
 
 #[test]
+fn a_picture_is_saved_by_its_ending() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name);
+    bytes().save(file("byte.png")).unwrap();
+    assert_eq!(image::open(file("byte.png")).unwrap().into_rgb8(), to_bytes(&bytes(), Encoding::Srgb));
+    floats().save(file("float.PNG")).unwrap();
+    assert_eq!(image::open(file("float.PNG")).unwrap().into_rgb8(), to_bytes(&floats(), Encoding::Srgb));
+    floats().save(file("float.exr")).unwrap();
+    let Picture::Float(drawn) = floats() else { unreachable!("floats") };
+    let read = image::open(file("float.exr")).unwrap().into_rgb32f();
+    assert!(read.pixels().zip(drawn.pixels()).all(|(read, drawn)| read.0[..] == drawn.0[..3]));
+
+    let error = bytes().save(file("byte.exr")).unwrap_err().to_string();
+    assert!(error.contains("Pixels::Float"), "{error}");
+    let error = bytes().save(file("byte.jpeg")).unwrap_err().to_string();
+    assert!(error.ends_with("expected a file that ends in .png or .exr"), "{error}");
+    assert!(!file("byte.exr").exists() && !file("byte.jpeg").exists());
+}
+
+#[test]
 fn formats_by_ending_and_bits() {
     use PictureFormat::{Exr, Png8, Png16};
     for (file, bits, expected) in [

@@ -13,6 +13,7 @@ mod examples;
 mod fuzzed;
 mod import;
 mod maps;
+mod model_root;
 mod past_failures;
 mod retired;
 mod solid;

@@ -1,0 +1,94 @@
+//! Errors and warnings of frames, logged once each.
+
+use std::collections::HashSet;
+
+use bevy_ecs::prelude::*;
+use halfway_lighting::{Blend, Mask, Material};
+use halfway_mesh::Mesh3d;
+
+use crate::cpu::canvas::CanvasTarget;
+#[cfg(feature = "wgpu")]
+use crate::gpu::surface::SurfaceTarget;
+use halfway_frame::error::label;
+use halfway_frame::report::FrameReport;
+use halfway_frame::why_empty::{EmptyReason, why_empty};
+
+/// The messages that have been logged.
+#[derive(Resource, Default)]
+pub(crate) struct Told(HashSet<String>);
+
+/// So that a scene that goes wrong in ever new words takes no memory without end.
+const MOST: usize = 1000;
+
+impl Told {
+    /// Whether the message is new. It is not from now on.
+    fn is_new(&mut self, message: &str) -> bool {
+        self.0.len() < MOST && !self.0.contains(message) && self.0.insert(message.to_owned())
+    }
+}
+
+/// Logs each error of the frame, unless a window shows the frames: it says errors itself, also without a logger.
+///
+/// The target has a name of its own, so that a program that prints what
+/// [`render_picture`](crate::render_picture) returns can turn these off.
+pub(crate) fn tell_errors(
+    report: Res<FrameReport>,
+    #[cfg(feature = "wgpu")] surface: Option<Res<SurfaceTarget>>,
+    canvas: Option<Res<CanvasTarget>>,
+    mut told: ResMut<Told>,
+) {
+    #[cfg(feature = "wgpu")]
+    if surface.is_some() {
+        return;
+    }
+    if canvas.is_some() {
+        return;
+    }
+    for error in &report.errors {
+        let message = error.to_string();
+        if told.is_new(&message) {
+            log::error!(target: "halfway_render::errors", "{message}");
+        }
+    }
+}
+
+type Opaque = (With<Mesh3d>, Without<Blend>, Without<Mask>, Changed<Material>);
+
+/// Logs how many materials have an opacity that nothing shows.
+pub(crate) fn tell_of_opacity(objects: Query<(Entity, &Material, Option<&Name>), Opaque>, mut told: ResMut<Told>) {
+    let mut hidden = objects.iter().filter(|(_, material, _)| material.opacity < 1.0);
+    let Some((entity, _, name)) = hidden.next() else { return };
+    let message = "has an opacity below 1, which is not shown without blending: insert `Blend`, or a `Mask`";
+    if told.is_new(message) {
+        let others = hidden.count();
+        log::warn!("{}, as {others} others, {message}", label(entity, name));
+    }
+}
+
+/// Whether the frame may show nothing.
+pub(crate) fn may_be_empty(report: Res<FrameReport>) -> bool {
+    report.errors.is_empty() && (report.visible == 0 || report.lights == 0)
+}
+
+/// Logs why the frame shows nothing.
+pub(crate) fn tell_why_empty(world: &mut World) {
+    // A room may be seen from within; whoever finds the picture empty asks for it.
+    let reason = why_empty(world).filter(|reason| !matches!(reason, EmptyReason::CameraInside { .. }));
+    let Some(reason) = reason else { return };
+    if world.resource_mut::<Told>().is_new(&reason.to_string()) {
+        log::warn!("the picture shows nothing: {reason}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_is_new_once() {
+        let mut told = Told::default();
+        assert!(told.is_new("no light") && !told.is_new("no light") && told.is_new("no camera"));
+        let new = (0..2 * MOST).filter(|i| told.is_new(&i.to_string())).count();
+        assert_eq!(new, MOST - 2);
+    }
+}
