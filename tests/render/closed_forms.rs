@@ -239,7 +239,7 @@ fn a_hemisphere_mixes_sky_and_ground() {
                 scene.things[0].faces = Some(Faces::Both);
             }
             let n_dot_d = f64::from(degrees.to_radians().cos()) * if up == Vec3::Z { 1.0 } else { -1.0 };
-            let sky = if front { (1.0 + n_dot_d) / 2.0 } else { (1.0 - n_dot_d) / 2.0 };
+            let sky = if front { 0.5 * (1.0 + n_dot_d) } else { 0.5 * (1.0 - n_dot_d) };
             let expected = f64::from(KD) * (0.2 * (1.0 - sky) + 0.8 * sky);
             assert_centre(&format!("{row} at {degrees}°"), &mut stage, &scene, expected, 1e-6);
         }

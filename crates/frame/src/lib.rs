@@ -11,6 +11,7 @@ pub mod geometry;
 pub mod lights;
 pub mod mean;
 pub mod passes;
+mod phases;
 mod plugin;
 pub mod report;
 pub mod sets;

@@ -1,7 +1,7 @@
 //! The counters and the errors of a frame.
 
 use crate::error::RenderError;
-use crate::passes::Pass;
+use crate::phases::Pass;
 use bevy_ecs::prelude::Resource;
 
 /// Counters and errors of the newest frame. Counts are exact, so they can be tested.

@@ -51,6 +51,7 @@ impl PixelValues {
     }
 
     /// The values that are drawn for such a picture under a policy.
+    #[must_use]
     pub fn under(self, policy: Intensity) -> Self {
         // Nothing is known of how dark it becomes, so that the curve of bytes may be as steep as it is at 0.
         let steepest = match self {

@@ -117,7 +117,7 @@ pub fn why_empty(world: &mut World) -> Option<EmptyReason> {
     if count == 0 {
         return Some(EmptyReason::AllOutside(in_eye.len()));
     }
-    let is_black = |color: LinearRgba| [color.red, color.green, color.blue] == [0.0; 3];
+    let is_black = |color: LinearRgba| [color.red, color.green, color.blue].iter().all(|&channel| channel <= 0.0);
     let shines = |material: Option<&Material>| material.is_some_and(|material| !is_black(material.emission));
     if !lights.any(is_black) && !seen().any(|((object, _), _)| shines(object.3)) {
         return Some(EmptyReason::NoLight(count));

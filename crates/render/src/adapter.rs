@@ -3,7 +3,7 @@
 use crate::cpu::device::Cpu;
 #[cfg(feature = "wgpu")]
 use crate::gpu::device::Gpu;
-use bevy_ecs::prelude::World;
+use bevy_ecs::prelude::{Res, World};
 use halfway_frame::error::RenderError;
 
 /// An adapter that is open. [`AdapterChoice::open`](crate::AdapterChoice::open) opens it, and the world holds it as the
@@ -104,4 +104,13 @@ impl Adapter {
             Self::Cpu(_) => Ok(()),
         }
     }
+}
+
+/// Whether the CPU draws.
+pub(crate) fn cpu_draws(#[cfg(feature = "wgpu")] gpu: Option<Res<Gpu>>, cpu: Option<Res<Cpu>>) -> bool {
+    #[cfg(feature = "wgpu")]
+    if gpu.is_some() {
+        return false;
+    }
+    cpu.is_some()
 }

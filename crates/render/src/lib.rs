@@ -12,6 +12,7 @@ mod cpu;
 #[cfg(feature = "wgpu")]
 mod gpu;
 mod headless;
+mod pending;
 mod picture;
 mod plugin;
 mod replaced;
@@ -46,7 +47,8 @@ pub use halfway_frame::view::camera::{Projection, View};
 pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 pub use halfway_frame::why_empty::{EmptyReason, why_empty};
 pub use headless::Headless;
-pub use picture::{PendingPicture, Picture, Pixels, render_picture, take_picture};
+pub use pending::{PendingPicture, render_picture, take_picture};
+pub use picture::{Picture, Pixels};
 pub use plugin::RenderPlugin;
 /// The wgpu that the renderer speaks; surfaces are made with it.
 #[cfg(feature = "wgpu")]

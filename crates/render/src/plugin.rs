@@ -6,7 +6,7 @@ use crate::cpu::device::Cpu;
 #[cfg(feature = "wgpu")]
 use crate::gpu::{self, device::Gpu};
 use crate::headless::{self, Headless};
-use crate::picture::DrawnIn;
+use crate::pending::DrawnIn;
 use crate::replaced;
 use crate::told::{self, Told};
 use bevy_app::{App, Plugin, PostUpdate};
@@ -93,13 +93,4 @@ fn open_anew(world: &mut World) {
         }
         Err(error) => world.resource_mut::<FrameReport>().errors.push(error),
     }
-}
-
-/// Whether the CPU draws.
-pub(crate) fn cpu_draws(#[cfg(feature = "wgpu")] gpu: Option<Res<Gpu>>, cpu: Option<Res<Cpu>>) -> bool {
-    #[cfg(feature = "wgpu")]
-    if gpu.is_some() {
-        return false;
-    }
-    cpu.is_some()
 }

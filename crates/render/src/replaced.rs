@@ -4,7 +4,7 @@ use crate::cpu::canvas::Canvas;
 use crate::cpu::device::Cpu;
 use crate::cpu::meshes::{self as mesh_pieces, MeshPieces};
 #[cfg(feature = "wgpu")]
-use crate::gpu::{device::Gpu, plugin::GpuState};
+use crate::gpu::{device::Gpu, state::GpuState};
 use bevy_ecs::prelude::*;
 use halfway_frame::geometry::meshes::Geometries;
 use halfway_frame::geometry::workshop::Workshop;

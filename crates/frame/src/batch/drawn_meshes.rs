@@ -41,6 +41,11 @@ impl<T> DrawnMeshes<T> {
         self.meshes.len()
     }
 
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.meshes.is_empty()
+    }
+
     /// Forgets meshes that are gone, and makes what is missing or out of date for those that are drawn: `make` takes
     /// the mesh, its indices, its form, and what was made of the same mesh with other triangles; it says how many bytes
     /// it has made. Where it fails the mesh is not drawn, and its error is in the report, every frame anew.

@@ -2,7 +2,7 @@
 
 use crate::batch::key::DrawKey;
 use crate::geometry::meshes::Form;
-use crate::passes::PassCounts;
+use crate::phases::PassCounts;
 use halfway_asset::AssetId;
 use halfway_mesh::Mesh;
 use std::ops::Range;

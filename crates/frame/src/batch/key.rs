@@ -255,6 +255,7 @@ impl DrawKey {
     }
 
     /// The key that draws the same without knowing the lights, the colors, the exponent and the mesh.
+    #[must_use]
     pub fn generic(self) -> Self {
         Self {
             lists: if self.is_lit() { Lists::Listed } else { self.lists },
@@ -284,6 +285,7 @@ impl DrawKey {
     }
 
     /// The one whose instances look up their records.
+    #[must_use]
     pub fn looking_up(self) -> Self {
         Self { per_instance: true, ..self }
     }

@@ -156,7 +156,7 @@ impl Reflecting<'_> {
     pub(crate) fn key(&self, look: &Appearance, circumstances: Circumstances, shared: Shared) -> DrawKey {
         let Shared { lights, viewer, .. } = shared;
         let [reflects_ambient, reflects_diffuse, reflects_specular] = look.reflects;
-        let lit = lights.len() > 0;
+        let lit = !lights.is_empty();
         let attenuated_ambient = lights.needs.attenuated_ambient && reflects_ambient;
         let used = |used: bool, term: Frequency| if lit && used { term } else { Frequency::Never };
         let terms = Terms {

@@ -121,6 +121,11 @@ impl Patches {
         self.shapes.len()
     }
 
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// The shape of a patch.
     pub(crate) fn shape(&self, patch: u32) -> &PatchShape {
         &self.shapes[patch as usize]

@@ -124,6 +124,11 @@ impl Workshop {
         self.orders.len()
     }
 
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.orders.is_empty()
+    }
+
     /// How many meshes are not made yet.
     pub(crate) fn pending(&self) -> u32 {
         self.orders.values().filter(|order| matches!(order.state, OrderState::Asked)).count() as u32

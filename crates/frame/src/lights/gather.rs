@@ -162,6 +162,11 @@ impl Lights {
         self.sources.len()
     }
 
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// One of them as the shaders read it.
     pub fn record(&self, number: u32) -> LightRecord {
         let Self { eye_from_world, unit, .. } = *self;

@@ -6,7 +6,7 @@ use crate::equations::vector::{cross, dot, length, mul, neg, scale, sub};
 use crate::equations::{
     COINCIDENT, Coefficients, ConeTerms, Eye, Real, power, reflect, specular_exponent, spot_factor,
 };
-use crate::lights::{Colors, Light, LightSource};
+use crate::lights::Colors;
 use crate::{Faces, Reflectance};
 
 /// Relative margin of every bound. It covers the rounding of the factors that are not cosines: about 2·10⁻⁵ in `f32`,
@@ -128,15 +128,6 @@ impl<T: Real> Receiver<T> {
             exponent: specular_exponent(reflectance, material.shininess),
             lobe,
         }
-    }
-
-    /// Bounds what `light` adds to any point of the patch.
-    ///
-    /// The table at [`bounds`](crate::bounds) gives the formulas and why they hold. A bound is usually above the
-    /// largest term, because the sphere has places without surface, the factors are bounded one by one, and a patch
-    /// seen from both sides takes the better side for each factor.
-    pub fn bounds(&self, light: &Light<T>) -> TermBounds<T> {
-        light.bounds(self)
     }
 
     /// The bounds of the terms that may be lit, for a light with these colours that arrives so, with this weight at most.

@@ -1,6 +1,6 @@
 //! Selects the lights of a patch: the one place where a tolerance is spent.
 
-use super::{LitTerms, Receiver};
+use super::{LitTerms, Receiver, TermBounds};
 use crate::equations::Real;
 use crate::equations::vector::add;
 use crate::lights::{Light, LightSource};
@@ -40,6 +40,15 @@ struct Term {
 const STRONG: u64 = u64::MAX;
 
 impl<T: Real> Receiver<T> {
+    /// Bounds what `light` adds to any point of the patch.
+    ///
+    /// The table at [`bounds`](crate::bounds) gives the formulas and why they hold. A bound is usually above the
+    /// largest term, because the sphere has places without surface, the factors are bounded one by one, and a patch
+    /// seen from both sides takes the better side for each factor.
+    pub fn bounds(&self, light: &Light<T>) -> TermBounds<T> {
+        light.bounds(self)
+    }
+
     /// Fills `selected` with the `lights` that the patch needs, each given with its number, in ascending order. The
     /// terms of the others are left out, the weakest first, as long as the sum of their bounds stays within
     /// `tolerance`, a linear intensity per channel (see [`linear_tolerance`](super::linear_tolerance)).

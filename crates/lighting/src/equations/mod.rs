@@ -27,6 +27,7 @@
 //! | a relief on a normal ≈ 0, or along ways that are one | no relief: [`mapped_normal`], [`bumped_normal`] |
 //! | a singular or mirroring matrix | [`normal_matrix`] by cofactors, with the sign of the determinant |
 
+mod arrival;
 mod encoding;
 mod environment;
 mod normal;
@@ -42,6 +43,7 @@ pub use crate::lights::{
     ATTENUATION_MAX, Colors, ConeTerms, Directional, Hemisphere, Light, Point, Spot, attenuation, range_window,
     spot_factor,
 };
+pub use arrival::{COINCIDENT, GRAZING, Incidence, Irradiance, view_vector};
 pub use encoding::srgb_encoded;
 pub use environment::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
 pub use normal::{NORMAL_MIN, normal_matrix, transform_normal};
@@ -52,10 +54,7 @@ pub use reflectance::{
 pub use relief::{bumped_normal, lobe_axes, mapped_normal};
 pub(crate) use scene::unit;
 pub use scene::{Coefficients, Eye, ShadedPoint, rgb};
-pub use shade::{
-    COINCIDENT, GRAZING, Incidence, Irradiance, LightTerms, incidence, irradiance, light_contribution, light_terms,
-    reflected, shade, view_vector,
-};
+pub use shade::{LightTerms, incidence, irradiance, light_contribution, light_terms, reflected, shade};
 pub use tone::{ACES_WHITE, aces, divisor, reinhard};
 pub use transcendental::Transcendental;
 pub use vector::Real;

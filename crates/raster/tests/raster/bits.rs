@@ -97,7 +97,6 @@ fn floor_and_glass(samples: Samples, pixels: PixelFormat) -> Scene {
         ambient: [0.1; 3],
         diffuse: [0.3, 0.5, 0.4],
         specular: [0.5; 3],
-        ..LightRecord::default()
     });
     scene.lists = vec![0, 1];
     for surface in &mut scene.surfaces {

@@ -137,7 +137,7 @@ impl OracleScene {
             let terms = light_terms(&surface, &material, light, &self.viewer, reflectance);
             if solid.terms.diffuse == at {
                 i.diffuse = add(i.diffuse, terms.diffuse);
-                if light.steady_ambient() == [0.0; 3] {
+                if light.steady_ambient().iter().all(|&channel| channel <= 0.0) {
                     i.ambient = add(i.ambient, terms.ambient);
                 }
             }

@@ -2,10 +2,10 @@
 
 use crate::cpu::canvas::{Canvas, CanvasTarget};
 use crate::cpu::device::Cpu;
+use crate::cpu::error::raster_error;
 use crate::cpu::meshes::MeshPieces;
 use crate::cpu::pass::PassLists;
 use crate::cpu::policy;
-use crate::cpu::raster_error;
 use crate::headless::Headless;
 use crate::picture::Pixels;
 use bevy_color::LinearRgba;
@@ -46,7 +46,6 @@ impl Backend for Cpu {
 }
 
 /// Makes the memory ready that the frame is drawn into.
-#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn prepare(
     headless: Res<Headless>,
     window: Option<Res<CanvasTarget>>,
@@ -122,9 +121,10 @@ pub(crate) fn draw(
     let (output, clear_tiles) = canvas.output();
     let mut rasterizer = cpu.rasterizer();
     let drawn = rasterizer.draw(&pass, output, clear_tiles);
-    let drawn = match passes.has(Phase::Policy) {
-        true => drawn.and_then(|()| policy::finish(&mut canvas, &rasterizer, &camera)),
-        false => drawn,
+    let drawn = if passes.has(Phase::Policy) {
+        drawn.and_then(|()| policy::finish(&mut canvas, &rasterizer, &camera))
+    } else {
+        drawn
     };
     canvas.end(drawn.is_ok());
     report.errors.extend(drawn.err().map(raster_error));

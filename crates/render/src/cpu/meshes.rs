@@ -1,6 +1,6 @@
 //! Upload: meshes as the rasterizer takes them.
 
-use crate::cpu::raster_error;
+use crate::cpu::error::raster_error;
 use bevy_ecs::prelude::*;
 use halfway_asset::AssetId;
 use halfway_frame::batch::batches::Batches;

@@ -3,23 +3,22 @@
 pub(crate) mod canvas;
 pub(crate) mod device;
 pub(crate) mod draw;
+mod error;
 pub(crate) mod meshes;
 pub(crate) mod pass;
 mod policy;
 
+use crate::adapter::cpu_draws;
 use crate::cpu::canvas::Canvas;
 use crate::cpu::device::Cpu;
 use crate::cpu::meshes::MeshPieces;
 use crate::cpu::pass::PassLists;
-use crate::plugin::cpu_draws;
 use crate::replaced;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::InternedScheduleLabel;
 use halfway_frame::add_backend;
-use halfway_frame::error::RenderError;
 use halfway_frame::sets::RenderSet::{Draw, Upload, View};
-use halfway_raster::RasterError;
 
 /// Adds the resources and the systems.
 pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
@@ -31,12 +30,4 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
         draw::draw.in_set(Draw),
     );
     app.add_systems(schedule, systems.run_if(cpu_draws));
-}
-
-/// The error of a frame for one of the rasterizer's.
-pub(crate) fn raster_error(error: RasterError) -> RenderError {
-    match error {
-        RasterError::Memory { what, bytes } => RenderError::Memory { what: what.into(), bytes },
-        other => RenderError::Cpu(other.to_string()),
-    }
 }

@@ -1,5 +1,6 @@
 //! The systems by which wgpu draws a frame.
 
+use crate::adapter::cpu_draws;
 use crate::cpu;
 use crate::gpu::attachments::{self, Target};
 use crate::gpu::device::Gpu;
@@ -9,40 +10,14 @@ use crate::gpu::draw::upload::{self, Buffers};
 use crate::gpu::passes::over;
 use crate::gpu::pipelines::cache::{self, Pipelines};
 use crate::gpu::texture;
-use crate::gpu::timer::GpuTimer;
 use crate::headless;
-use crate::plugin::cpu_draws;
 use crate::replaced;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::InternedScheduleLabel;
-use bevy_ecs::system::SystemParam;
 use halfway_frame::batch::lit_patches;
 use halfway_frame::sets::RenderSet::{Deliver, Draw, Illuminate, Upload, View};
 use halfway_frame::{ReadCamera, add_backend};
-
-/// All that belongs to a device.
-#[derive(SystemParam)]
-pub(crate) struct GpuState<'w> {
-    target: ResMut<'w, Target>,
-    meshes: ResMut<'w, MeshBuffers>,
-    buffers: ResMut<'w, Buffers>,
-    pipelines: ResMut<'w, Pipelines>,
-    timer: Option<ResMut<'w, GpuTimer>>,
-}
-
-impl GpuState<'_> {
-    /// Drops it.
-    pub(crate) fn forget(&mut self) {
-        *self.target = Target::default();
-        *self.meshes = MeshBuffers::default();
-        *self.buffers = Buffers::default();
-        *self.pipelines = Pipelines::default();
-        if let Some(timer) = &mut self.timer {
-            timer.forget_device();
-        }
-    }
-}
 
 /// Adds the resources and the systems.
 pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {

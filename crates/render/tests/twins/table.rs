@@ -232,6 +232,7 @@ use equations::{
 use halfway_texture::environment::on_cube;
 
 #[rustfmt::skip]
+#[expect(clippy::too_many_lines, reason = "a table: one row a function of the texts")]
 pub(crate) fn rows() -> Vec<Row> {
     vec![
         row!(power("s(i, 0), s(i, 1), -1") -> Scalar, NOTHING, inputs::powers(),

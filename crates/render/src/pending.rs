@@ -1,0 +1,129 @@
+//! Pictures on their way from the adapter that draws them.
+
+use crate::cpu::canvas::{Canvas, CanvasTarget};
+#[cfg(feature = "wgpu")]
+use crate::gpu::{attachments::Target, device::Gpu, read_back::ReadBack};
+use crate::picture::Picture;
+use bevy_app::App;
+use bevy_ecs::prelude::{Resource, World};
+use bevy_ecs::schedule::InternedScheduleLabel;
+use halfway_frame::error::RenderError;
+use halfway_frame::report::FrameReport;
+
+/// A picture on its way from what has drawn it. Poll it with [`PendingPicture::try_take`] while other frames
+/// are drawn, or wait for it with [`PendingPicture::wait`].
+pub struct PendingPicture(Pending);
+
+enum Pending {
+    /// The GPU copies it.
+    #[cfg(feature = "wgpu")]
+    Copied(ReadBack),
+    /// The CPU has drawn it; until it is taken.
+    There(Option<Picture>),
+}
+
+impl PendingPicture {
+    /// Starts to copy the newest headless picture; later frames do not change what arrives.
+    ///
+    /// # Errors
+    /// [`RenderError::NoPicture`] before the first headless frame or while a window is the target;
+    /// [`RenderError::TooLarge`] or [`RenderError::Memory`] where there is no room for the copy.
+    pub fn request(world: &World) -> Result<Self, RenderError> {
+        #[cfg(feature = "wgpu")]
+        if let (Some(gpu), Some(target)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) {
+            let texture = target.picture().ok_or(RenderError::NoPicture)?;
+            return Ok(Self(Pending::Copied(ReadBack::start(gpu, texture)?)));
+        }
+        let canvas = world.get_resource::<Canvas>().filter(|_| !world.contains_resource::<CanvasTarget>());
+        let picture = canvas.ok_or(RenderError::NoPicture)?.picture()?;
+        Ok(Self(Pending::There(Some(picture))))
+    }
+
+    /// The picture if it has arrived; `None` while it has not, and after it was taken.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way.
+    pub fn try_take(&mut self) -> Result<Option<Picture>, RenderError> {
+        match &mut self.0 {
+            #[cfg(feature = "wgpu")]
+            Pending::Copied(copy) => copy.try_take(),
+            Pending::There(picture) => Ok(picture.take()),
+        }
+    }
+
+    /// Blocks until the picture has arrived.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way;
+    /// [`RenderError::NoPicture`] where it was taken.
+    pub fn wait(self) -> Result<Picture, RenderError> {
+        match self.0 {
+            #[cfg(feature = "wgpu")]
+            Pending::Copied(copy) => copy.wait(),
+            Pending::There(picture) => picture.ok_or(RenderError::NoPicture),
+        }
+    }
+}
+
+/// Runs one frame of `app` ([`App::update`]) and waits for its picture: systems run and time passes. [`take_picture`]
+/// draws the world as it is. Everything the frame could not do is an error here: the first of
+/// [`FrameReport::errors`].
+///
+/// # Errors
+/// The frame's first error, or why its picture could not be read back.
+pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
+    app.update();
+    picture_of_frame(app.world())
+}
+
+/// Draws the world as it is now and waits for its picture. Only the schedule that draws runs: no `Startup`, no
+/// `Update`, and no time passes. That schedule is [`RenderPlugin::schedule`](crate::RenderPlugin::schedule),
+/// `PostUpdate` by default, so that transforms are propagated first; systems of the app's own that are in it run, too.
+///
+/// [`render_picture`] steps the app instead. A scene that is spawned in `Startup` is there after the first step.
+///
+/// ```
+/// use bevy_app::App;
+/// use bevy_math::UVec2;
+/// use bevy_transform::{TransformPlugin, components::Transform};
+/// use halfway_asset::Assets;
+/// use halfway_lighting::{Camera, Material};
+/// use halfway_mesh::{Mesh, Mesh3d, UvSphere};
+/// use halfway_render::{AdapterChoice, Headless, RenderError, RenderPlugin, take_picture};
+///
+/// # fn main() -> Result<(), RenderError> {
+/// let mut app = App::new();
+/// app.add_plugins((TransformPlugin, RenderPlugin::default()))
+///     .insert_resource(Headless { size: UVec2::new(64, 48), ..Headless::default() })
+///     .insert_resource(AdapterChoice::cpu());
+/// let world = app.world_mut();
+/// world.spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 4.0)));
+/// let sphere = world.resource_mut::<Assets<Mesh>>().add(UvSphere::default());
+/// let ball = world.spawn((Mesh3d(sphere), Material::emissive(bevy_color::LinearRgba::RED))).id();
+/// let with = take_picture(world)?;
+/// world.despawn(ball);
+/// let without = take_picture(world)?;
+/// assert_ne!(with, without);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// # Errors
+/// The frame's first error, or why its picture could not be read back; [`RenderError::NoPicture`] in a world without
+/// a [`RenderPlugin`](crate::RenderPlugin).
+pub fn take_picture(world: &mut World) -> Result<Picture, RenderError> {
+    let schedule = world.get_resource::<DrawnIn>().ok_or(RenderError::NoPicture)?.0;
+    world.try_run_schedule(schedule).map_err(|_| RenderError::NoPicture)?;
+    picture_of_frame(world)
+}
+
+/// The schedule that draws a frame.
+#[derive(Resource, Clone, Copy)]
+pub(crate) struct DrawnIn(pub(crate) InternedScheduleLabel);
+
+fn picture_of_frame(world: &World) -> Result<Picture, RenderError> {
+    if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
+        return Err(error.clone());
+    }
+    PendingPicture::request(world)?.wait()
+}
