@@ -32,7 +32,7 @@ pub enum RenderError {
         /// The value of `WGPU_BACKEND`.
         backends: String,
     },
-    /// No adapter fits the name that [`AdapterChoice`](crate::AdapterChoice) or the environment gives.
+    /// No adapter fits the name that `AdapterChoice` or the environment gives.
     #[error("no graphics adapter fits \"{wanted}\"; {}", listed(there))]
     NoSuchAdapter {
         /// The name, in lower case.

@@ -40,20 +40,20 @@ pub struct FrameReport {
     pub triangles: u64,
     /// The passes that drew something, in order, and how much each of them drew.
     pub passes: Vec<Pass>,
-    /// Passes of the App's own that are not drawn, since the [`Cpu`](crate::Cpu) draws.
+    /// Passes of the App's own that are not drawn, since the `Cpu` draws.
     pub passes_refused: u32,
     /// Passes over the finished picture, by an [`Intensity`](halfway_lighting::Intensity) that acts on it: of
-    /// [`Cpu`](crate::Cpu) over its memory. 0 under [`Intensity::Clamp`](halfway_lighting::Intensity::Clamp).
+    /// `Cpu` over its memory. 0 under [`Intensity::Clamp`](halfway_lighting::Intensity::Clamp).
     pub picture_passes: u32,
     /// Model-view and normal matrices computed; 0 where nothing moved.
     pub matrices: u32,
     /// Distinct materials (front and back together) in the picture.
     pub materials: u32,
-    /// Bytes sent to the GPU: meshes, the view, instances, materials, lights and their lists. The [`Cpu`](crate::Cpu)
+    /// Bytes sent to the GPU: meshes, the view, instances, materials, lights and their lists. The `Cpu`
     /// reads all but meshes where they are: there, the bytes of those that were made ready. 0 for a frame equal to the
     /// last.
     pub bytes_uploaded: u64,
-    /// Pipelines built since the device was opened; each is one variant of the shader. The [`Cpu`](crate::Cpu) has
+    /// Pipelines built since the device was opened; each is one variant of the shader. The `Cpu` has
     /// none.
     pub pipelines: u32,
     /// Pipelines that are there now: those built, less the specialised ones that were given up.
@@ -61,7 +61,7 @@ pub struct FrameReport {
     /// Pipelines that are still being built beside the frames: specialised ones, in whose place generic ones draw, and
     /// generic ones that are built ahead.
     pub pipelines_pending: u32,
-    /// Pipelines that this frame waited for; under [`Compile::Beside`](crate::Compile::Beside) never a specialised one
+    /// Pipelines that this frame waited for; under `Compile::Beside` never a specialised one
     /// after the first frame.
     pub pipelines_awaited: u32,
 }

@@ -5,17 +5,17 @@ use bevy_ecs::prelude::SystemSet;
 /// The steps of a frame, in order. Each says what holds after it.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RenderSet {
-    /// The adapter is open, the camera is validated, [`View`](crate::View) holds its matrices and projection, and there
+    /// The adapter is open, the camera is validated, [`View`](crate::view::camera::View) holds its matrices and projection, and there
     /// is something to draw into.
     View,
-    /// [`Visible`](crate::Visible) holds the objects that the frustum sees.
+    /// [`Visible`](crate::view::matrices::Visible) holds the objects that the frustum sees.
     Select,
-    /// [`ModelView`](crate::ModelView) and [`NormalMatrix`](crate::NormalMatrix) of every visible object are current.
+    /// [`ModelView`](crate::view::matrices::ModelView) and [`NormalMatrix`](crate::view::matrices::NormalMatrix) of every visible object are current.
     Matrices,
-    /// [`Chosen`](crate::Chosen) says where each visible object's terms are shaded, and its mesh is in patches laid out
+    /// [`Chosen`](crate::lights::terms::Chosen) says where each visible object's terms are shaded, and its mesh is in patches laid out
     /// for that.
     Choose,
-    /// [`Lights`](crate::Lights) holds the lights in eye space; each visible object has a level of detail, and each of
+    /// [`Lights`](crate::lights::gather::Lights) holds the lights in eye space; each visible object has a level of detail, and each of
     /// its patches that is seen has its light lists.
     Illuminate,
     /// Those patches are draws: sorted, equal ones instanced, and those that share their state together.

@@ -4,7 +4,7 @@ use bevy_ecs::prelude::Resource;
 use halfway_lighting::{Encoding, Intensity};
 
 /// The values that the frame draws; `None` where there is nothing to draw into.
-/// Holds after [`RenderSet::View`](crate::RenderSet::View).
+/// Holds after [`RenderSet::View`](crate::sets::RenderSet::View).
 #[derive(Resource, Clone, Copy, Debug, Default)]
 pub struct FrameValues(pub Option<PixelValues>);
 

@@ -5,7 +5,7 @@ use crate::cpu::device::Cpu;
 use bevy_ecs::prelude::Resource;
 use halfway_frame::error::RenderError;
 
-/// The choice of an adapter: a graphics adapter, or the CPU. Insert it before the first frame; an open [`Gpu`] or [`Cpu`]
+/// The choice of an adapter: a graphics adapter, or the CPU. Insert it before the first frame; an open `Gpu` or [`Cpu`]
 /// stays.
 ///
 /// The first of these that is given decides:

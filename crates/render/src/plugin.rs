@@ -16,7 +16,7 @@ use halfway_frame::report::FrameReport;
 use halfway_frame::sets::RenderSet;
 use halfway_frame::{FramePlugin, ReadCamera};
 
-/// Draws every entity with a [`Mesh3d`] through the world's [`Camera`](halfway_lighting::Camera), once a run of its
+/// Draws every entity with a [`Mesh3d`](halfway_mesh::Mesh3d) through the world's [`Camera`](halfway_lighting::Camera), once a run of its
 /// schedule.
 ///
 /// Needs `GlobalTransform`s to be current: it runs after `TransformSystems::Propagate` where that set

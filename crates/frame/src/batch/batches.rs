@@ -10,7 +10,7 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use halfway_lighting::record::InstanceRecord;
 
-/// The frame's draws. Holds after [`RenderSet::Batch`](crate::RenderSet::Batch).
+/// The frame's draws. Holds after [`RenderSet::Batch`](crate::sets::RenderSet::Batch).
 #[derive(Resource, Debug, Default)]
 pub struct Batches {
     /// In the order of the draws.

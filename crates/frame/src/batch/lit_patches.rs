@@ -26,7 +26,7 @@ use halfway_lighting::record::{InstanceRecord, SurfaceRecord};
 use halfway_lighting::{InvalidValue, Tolerance};
 
 /// The patches that may show, in the order of the objects. Holds after
-/// [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
+/// [`RenderSet::Illuminate`](crate::sets::RenderSet::Illuminate).
 #[derive(Resource, Debug, Default)]
 pub struct LitPatches {
     pub(crate) runs: Vec<LitRun>,

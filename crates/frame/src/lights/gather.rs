@@ -17,7 +17,7 @@ use {
     halfway_lighting::{LightComponent, PointLight},
 };
 
-/// The scene's lights, sorted by kind. Holds after [`RenderSet::Illuminate`](crate::RenderSet::Illuminate).
+/// The scene's lights, sorted by kind. Holds after [`RenderSet::Illuminate`](crate::sets::RenderSet::Illuminate).
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct Lights {
     /// Ga + Σ La of the lights that do not attenuate their ambient.

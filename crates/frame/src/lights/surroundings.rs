@@ -10,7 +10,7 @@ use halfway_lighting::{Fields, Shown};
 use halfway_texture::environment::SurroundingsData;
 use halfway_texture::environment::{EnvironmentLight, EnvironmentMap};
 
-/// The environment of the frame. Holds from [`RenderSet::Select`](crate::RenderSet::Select) on.
+/// The environment of the frame. Holds from [`RenderSet::Select`](crate::sets::RenderSet::Select) on.
 #[derive(Resource, Debug, Default)]
 pub struct Surroundings(pub Option<SurroundingsData>);
 

@@ -7,7 +7,7 @@ use bevy_math::{DAffine3, DMat3, DVec3, UVec2, Vec3};
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_lighting::{Camera, Propagation, Reflectance, Shading, propagation};
 
-/// The view of a frame. Holds after [`RenderSet::View`](crate::RenderSet::View).
+/// The view of a frame. Holds after [`RenderSet::View`](crate::sets::RenderSet::View).
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct View {
     /// The camera, validated; `None` while there is none to draw with.
@@ -32,7 +32,7 @@ pub struct View {
 impl View {
     /// How long a world unit is in the eye space of the shaders: a power of two, and 1 but for scenes so large or so
     /// small that the squares of their distances leave f32. Holds after
-    /// [`RenderSet::Select`](crate::RenderSet::Select).
+    /// [`RenderSet::Select`](crate::sets::RenderSet::Select).
     pub fn unit(&self) -> f64 {
         2f64.powi(self.unit_exponent)
     }

@@ -11,7 +11,7 @@ use halfway_lighting::Shown;
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 /// `eye_from_model` of an object, composed in f64 relative to the camera and rounded once.
-/// Holds for visible objects after [`RenderSet::Matrices`](crate::RenderSet::Matrices).
+/// Holds for visible objects after [`RenderSet::Matrices`](crate::sets::RenderSet::Matrices).
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct ModelView {
     /// Model to eye.
@@ -53,7 +53,7 @@ pub struct NormalMatrix(pub Mat3);
 
 /// The objects that are not [hidden](halfway_lighting::Visibility) and whose bounding sphere meets the frustum, in
 /// spawn order.
-/// Holds after [`RenderSet::Select`](crate::RenderSet::Select).
+/// Holds after [`RenderSet::Select`](crate::sets::RenderSet::Select).
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Visible(pub Vec<Entity>);
 

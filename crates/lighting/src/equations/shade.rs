@@ -19,7 +19,7 @@ pub struct LightTerms<T> {
 }
 
 /// Direction and strength of a light at a point; `None` for light from all around. Where a light is at the point itself
-/// ([`COINCIDENT`]) l is n and the distance 0.
+/// ([`COINCIDENT`](super::COINCIDENT)) l is n and the distance 0.
 pub fn incidence<T: Real>(surface: &ShadedPoint<T>, light: &Light<T>) -> Option<Incidence<T>> {
     light.incidence(surface)
 }

@@ -148,7 +148,7 @@ pub struct SurroundingsData {
     pub strength: f32,
     /// The rows of the rotation from eye space to the environment.
     pub rows: [[f32; 3]; 3],
-    /// The polynomial of [`mean_light`](halfway_lighting::equations::mean_light).
+    /// The polynomial of `halfway_lighting::equations::mean_light`.
     pub mean: [[f32; 3]; 9],
     /// The level that is seen where nothing is drawn, in place of the clear color.
     pub sky: Option<f32>,
