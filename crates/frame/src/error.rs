@@ -11,7 +11,7 @@ use thiserror::Error;
 /// Its `Debug` reads as its message, so that `fn main() -> Result<(), RenderError>` prints a sentence:
 ///
 /// ```
-/// use halfway_render::RenderError;
+/// use halfway_frame::error::RenderError;
 ///
 /// let error = RenderError::NoCamera;
 /// assert_eq!(format!("{error:?}"), error.to_string());

@@ -55,7 +55,7 @@ impl SetTimes {
 ///
 /// ```no_run
 /// # use bevy_app::App;
-/// # use halfway_frame::FrameTimes;
+/// # use halfway_frame::times::FrameTimes;
 /// # let app = App::new();
 /// let times = app.world().resource::<FrameTimes>();
 /// for (set, time) in times.smoothed().sets() {

@@ -26,7 +26,7 @@ enum Check {
     Lints,
     /// The documentation builds without warnings
     Documentation,
-    /// The library builds for those who bring their own window; without wgpu it has none and draws a picture
+    /// The library builds without a window, and without wgpu draws a picture
     Smallest,
 }
 
