@@ -58,10 +58,14 @@ type Opaque = (With<Mesh3d>, Without<Blend>, Without<Mask>, Changed<Material>);
 pub(crate) fn tell_of_opacity(objects: Query<(Entity, &Material, Option<&Name>), Opaque>, mut told: ResMut<Told>) {
     let mut hidden = objects.iter().filter(|(_, material, _)| material.opacity < 1.0);
     let Some((entity, _, name)) = hidden.next() else { return };
-    let message = "has an opacity below 1, which is not shown without blending: insert `Blend`, or a `Mask`";
+    let message = "an opacity below 1 does not show without blending: insert `Blend`, or a `Mask`";
     if told.is_new(message) {
-        let others = hidden.count();
-        log::warn!("{}, as {others} others, {message}", label(entity, name));
+        let others = match hidden.count() {
+            0 => String::new(),
+            1 => " and of another object".into(),
+            count => format!(" and of {count} other objects"),
+        };
+        log::warn!("{message} (material of {}{others})", label(entity, name));
     }
 }
 
