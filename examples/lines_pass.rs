@@ -17,7 +17,7 @@ fn main() -> AppExit {
 #[derive(Default)]
 struct Axes(Option<Made>);
 
-/// What the lines are drawn with, and the attachments that it fits.
+/// The pipeline of the lines, and the attachments that it fits.
 struct Made {
     target: OverTarget,
     pipeline: wgpu::RenderPipeline,

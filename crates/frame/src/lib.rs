@@ -1,9 +1,9 @@
-//! The frame: a world of entities becomes plain data that anything can draw.
+#![doc = include_str!("../README.md")]
 //!
 //! Systems validate the camera, select what the frustum sees, compose matrices, lay meshes out in patches, gather the
-//! lights and list those of each patch, and sort everything into draws. The result is [`LitPatches`](batch::lit_patches::LitPatches) and
-//! [`Batches`](batch::batches::Batches). Nothing here knows wgpu, a rasterizer or a target: a drawer implements
-//! [`Backend`](batch::backend::Backend), and `halfway_render` has two.
+//! lights, list those of each patch, and sort everything into draws: [`LitPatches`](batch::lit_patches::LitPatches) and
+//! [`Batches`](batch::batches::Batches). A drawer implements [`Backend`](batch::backend::Backend); `halfway_render` has
+//! two.
 
 pub mod batch;
 pub mod error;

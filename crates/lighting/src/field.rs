@@ -12,7 +12,7 @@ use crate::range::Range;
 pub struct Field<T> {
     /// Its name in Rust and in scene files.
     pub name: &'static str,
-    /// What it means, in few words; its range is not part of them.
+    /// Its meaning in few words, without its range.
     pub meaning: &'static str,
     /// The range of the number, or of each of the three.
     pub range: Range,

@@ -6,7 +6,7 @@ use crate::equations::{aces, reinhard};
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
 
-/// What becomes of intensities above 1.
+/// The policy for intensities above 1.
 ///
 /// [`Clamp`](Self::Clamp) acts on each surface, and costs nothing. The others act on the finished picture: on
 /// intensities that have been blended, and averaged where a pixel has several samples. It is drawn in floating point
@@ -37,7 +37,7 @@ pub enum Intensity {
 }
 
 impl Intensity {
-    /// What [`Reinhard::white`](Self::Reinhard) is where nothing is said.
+    /// The default of [`Reinhard::white`](Self::Reinhard).
     pub const WHITE: f32 = 4.0;
     /// The values of [`Renormalize::smoothing`](Self::Renormalize).
     pub const SMOOTHING_RANGE: Range = Range::new(Included(0.0), Excluded(1.0), "a number from 0 to below 1");
@@ -49,7 +49,7 @@ impl Intensity {
         self != Self::Clamp
     }
 
-    /// What becomes of one channel of the finished picture, but for a divisor. Grows with the intensity.
+    /// One channel of the finished picture, but for a divisor. Grows with the intensity.
     pub fn toned(self, intensity: f64) -> f64 {
         match self {
             Self::Clamp | Self::Renormalize { .. } => intensity,

@@ -1,4 +1,4 @@
-//! What is refused, and the message that says so.
+//! Refused values, and their messages.
 
 use bevy_color::LinearRgba;
 use thiserror::Error;
@@ -16,11 +16,11 @@ pub struct InvalidValue {
     pub owner: &'static str,
     /// The path to the value inside that type, e.g. `attenuation.linear`.
     pub field: String,
-    /// What is wrong, with the value and what was expected.
+    /// The fault, with the value and the expected range.
     pub problem: Problem,
 }
 
-/// What is wrong with an [`InvalidValue`].
+/// The fault of an [`InvalidValue`].
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Problem {
@@ -74,7 +74,7 @@ pub enum Problem {
 pub struct Fields {
     /// The type that holds the value.
     pub owner: &'static str,
-    /// What stands before a field's name: empty, or the path to an inner struct with its dot.
+    /// The prefix of a field's name: empty, or the path to an inner struct with its dot.
     pub prefix: &'static str,
 }
 

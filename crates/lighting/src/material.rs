@@ -1,4 +1,4 @@
-//! What a surface does with light.
+//! Materials: how a surface reflects light.
 
 use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
@@ -8,7 +8,7 @@ use crate::field::{self, Described, Field, rgb};
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
 
-/// What each field of [`Material`] means, for its documentation and for the schema of scene files.
+/// The meaning of each field of [`Material`], for its documentation and for the schema of scene files.
 macro_rules! meaning {
     (ambient) => {
         "ka, linear RGB: reflects ambient light. Normally at most 1."
@@ -66,7 +66,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// What [`Material::default`] returns, for constants.
+    /// The value of [`Material::default`], for constants.
     pub const DEFAULT: Self = Self {
         ambient: LinearRgba::rgb(0.2, 0.2, 0.2),
         diffuse: LinearRgba::rgb(0.8, 0.8, 0.8),

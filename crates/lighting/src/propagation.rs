@@ -4,7 +4,7 @@
 use bevy_ecs::entity::Entity;
 use bevy_transform::components::{GlobalTransform, Transform};
 
-/// What the transforms of a world tell of their propagation.
+/// Whether the transforms of a world are propagated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Propagation {
     /// An entity's `GlobalTransform` is its `Transform`, and not the identity: something propagates.
@@ -16,7 +16,7 @@ pub enum Propagation {
     Unknown,
 }
 
-/// What `roots`, entities without a parent, tell. It stops at the first that speaks for [`Propagation::Works`].
+/// Looks at `roots`, entities without a parent. It stops at the first that speaks for [`Propagation::Works`].
 pub fn propagation<'a>(roots: impl IntoIterator<Item = (Entity, &'a Transform, &'a GlobalTransform)>) -> Propagation {
     let mut found = Propagation::Unknown;
     for (entity, transform, global) in roots {

@@ -7,7 +7,7 @@ use crate::field::{Described, Field, validate};
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
 
-/// What each number of [`Tolerance`] means, for its documentation and for the schema of scene files.
+/// The meaning of each number of [`Tolerance`], for its documentation and for the schema of scene files.
 macro_rules! meaning {
     (steps) => {
         "How much light may be left out of a pixel's channel, in steps of 1/255 of the output."

@@ -1,8 +1,8 @@
-//! What becomes of the colours that a mesh has at its vertices.
+//! The use of the colours at the vertices of a mesh.
 
 use bevy_ecs::component::Component;
 
-/// What an object does with the colours at the vertices of its mesh. Of a mesh without them it says nothing.
+/// The use that an object makes of the colours at the vertices of its mesh. It has no effect on a mesh without them.
 ///
 /// A colour is linear RGB and an opacity, each taken into 0 to 1 as glTF 2.0 §3.7.2.1 has it for `COLOR_0`. Emission
 /// and specular reflectance are the material's alone.

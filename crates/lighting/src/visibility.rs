@@ -1,4 +1,4 @@
-//! What is hidden: a choice on an entity that everything below it takes over.
+//! Visibility: a choice on an entity that everything below it inherits.
 
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
@@ -8,7 +8,7 @@ use bevy_ecs::system::{Query, SystemParam};
 /// Whether an object is drawn, a light shines. It holds for the entity and, unless they say otherwise, for all entities
 /// below it in the hierarchy of [`ChildOf`]. An entity without it inherits. On cameras it has no meaning.
 ///
-/// What is hidden is as if it were not there: it is neither counted nor checked. The global ambient light stays.
+/// Hidden entities are as if they were not there: neither counted nor checked. The global ambient light stays.
 /// [`Shown`] says what holds for an entity.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Visibility {
@@ -23,7 +23,7 @@ pub enum Visibility {
 }
 
 /// The most entities that [`Shown`] looks at on the way up, so that a hierarchy that runs in a circle comes to an end.
-/// What lies farther above does not count.
+/// Ancestors farther above do not count.
 const HIGHEST: usize = 10_000;
 
 /// Tells which entities are hidden, as a parameter of a system.

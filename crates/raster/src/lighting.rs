@@ -51,7 +51,7 @@ impl<S: Simd> Points<S> {
     }
 }
 
-/// What reaches points, before the material: sums over lights of color·att·spot·factor.
+/// Light at points, before the material: sums over lights of color·att·spot·factor.
 #[derive(Clone, Copy)]
 pub(crate) struct Irradiance<S: Simd> {
     pub(crate) ambient: V3<S>,
@@ -260,7 +260,7 @@ fn finite_incidence<S: Simd>(
 const LARGEST_SQUARE: f32 = (1_u128 << 120) as f32;
 const LEAST_SQUARE: f32 = 1.0 / (1_u64 << 60) as f32;
 
-/// What squares cannot tell: the way to a light that is far off, very near, or at the point itself, where it is n; what
+/// Cases that squares cannot tell: the way to a light that is far off, very near, or at the point itself, where it is n; what
 /// its length is to be multiplied by; and ‖p‖ over that, or 0 at the point. Ordinary distances come out as elsewhere,
 /// since powers of two round nothing.
 #[cold]

@@ -1,4 +1,4 @@
-//! What a surface gives back: the diffuse and the two specular terms.
+//! Reflection at a surface: the diffuse and the two specular terms.
 
 use super::vector::{add, dot, neg, normalize, scale, sub};
 use super::{NORMAL_MIN, Real};

@@ -1,4 +1,4 @@
-//! What the equations take: the values of the components, in the number type and the space of the evaluation.
+//! Inputs of the equations: the values of the components, in the number type and the space of the evaluation.
 
 use bevy_color::LinearRgba;
 

@@ -1,11 +1,11 @@
-//! What becomes of a finished picture whose intensities exceed 1: one divisor for all of it, or a curve a channel.
+//! Policies for a finished picture whose intensities exceed 1: one divisor for all of it, or a curve a channel.
 
 use super::Real;
 
 /// Where [`aces`] has long reached 1: it does so at 7.25. More would overflow its squares.
 pub const ACES_WHITE: f32 = 8.0;
 
-/// What a picture is divided by whose largest channel is `largest`: that, where it exceeds 1. Of the divisor of the
+/// The divisor of a picture whose largest channel is `largest`: that, where it exceeds 1. Of the divisor of the
 /// frame `before`, `smoothing` is kept.
 pub fn divisor<T: Real>(largest: T, before: T, smoothing: T) -> T {
     let plain = if largest > T::of(1.0) { largest } else { T::of(1.0) };

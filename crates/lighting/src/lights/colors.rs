@@ -7,7 +7,7 @@ use crate::Reflectance;
 use crate::equations::vector::{dot, scale};
 use crate::equations::{Eye, Incidence, Irradiance, Real, ShadedPoint, diffuse_term, rgb, specular_term, view_vector};
 
-/// What each field of a light means, for its documentation and for the schema of scene files.
+/// The meaning of each field of a light, for its documentation and for the schema of scene files.
 macro_rules! meaning {
     (ambient) => {
         "La, linear RGB: added wherever the surface faces."
@@ -50,7 +50,7 @@ impl<T: Real> Colors<T> {
         Colors { la: self.la.map(number), ld: self.ld.map(number), ls: self.ls.map(number) }
     }
 
-    /// What arrives at a point from this incidence, `ambient` times the ambient colour.
+    /// The light that arrives at a point from this incidence, `ambient` times the ambient colour.
     pub(super) fn arriving(
         &self,
         incident: &Incidence<T>,

@@ -1,4 +1,4 @@
-//! What lights at a position share: attenuation with the distance, range, and cone, as components and as maths.
+//! The parts that lights at a position share: attenuation with the distance, range, and cone, as components and as maths.
 
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 

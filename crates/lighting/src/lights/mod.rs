@@ -43,7 +43,7 @@ pub use spot::{Spot, SpotLight};
 
 /// A kind of light: the component, and how it becomes a light in an evaluation and in a record.
 pub trait LightKind: Component + Described + Debug + PartialEq {
-    /// What the kind is called in scene files.
+    /// The name of the kind in scene files.
     const NAME: &'static str;
     /// The name of its function in [`WGSL`](Self::WGSL).
     const FUNCTION: &'static str;
@@ -72,7 +72,7 @@ pub trait LightKind: Component + Described + Debug + PartialEq {
     /// A light in world space as a view sees it.
     fn in_eye_space(source: &Self::Source<f64>, view: &LightView) -> Self::Source<f64>;
 
-    /// What it asks of the shaders that evaluate it.
+    /// Its demands on the shaders that evaluate it.
     fn needs(source: &Self::Source<f64>) -> LightNeeds;
 
     /// Its record; the number of its kind is filled in by the caller.
@@ -85,7 +85,7 @@ pub trait LightSource<T: Real>: Copy + Debug + PartialEq {
     /// Its direction and strength at a point; `None` for light from all around.
     fn incidence(&self, surface: &ShadedPoint<T>) -> Option<Incidence<T>>;
 
-    /// What it brings to a point whose material has this shininess.
+    /// Its light at a point whose material has this shininess.
     fn irradiance(
         &self,
         surface: &ShadedPoint<T>,
@@ -147,7 +147,7 @@ impl LightView {
     }
 }
 
-/// What lights ask of the shaders that evaluate them.
+/// The demands of lights on the shaders that evaluate them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is one independent fact")]
 pub struct LightNeeds {
@@ -162,7 +162,7 @@ pub struct LightNeeds {
 }
 
 impl LightNeeds {
-    /// What either asks.
+    /// The demands of both.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {
@@ -248,7 +248,7 @@ fn any_light(light: Light, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: 
     &TEXT
 }
 
-/// What a query finds of a light of one kind.
+/// The data of a light of one kind in a query.
 type LightData<L> = (Entity, &'static L, &'static GlobalTransform, Option<&'static Name>);
 
 macro_rules! light_kinds {
@@ -269,7 +269,7 @@ macro_rules! light_kinds {
                 Self::ALL.get(number as usize).copied()
             }
 
-            /// What it is called in scene files.
+            /// Its name in scene files.
             pub const fn name(self) -> &'static str {
                 match self {
                     $(Self::$kind => $component::NAME),*
@@ -384,7 +384,7 @@ macro_rules! light_kinds {
                 }
             }
 
-            /// What it asks of the shaders that evaluate it.
+            /// Its demands on the shaders that evaluate it.
             pub fn needs(&self) -> LightNeeds {
                 match self {
                     $(Self::$kind(source) => <$component as LightKind>::needs(source)),*

@@ -194,7 +194,7 @@ impl<T: Real> Point<T> {
         Incidence { l, grazing, weight: attenuation(self.attenuation, d) * window }
     }
 
-    /// What arrives with this incidence.
+    /// The light that arrives with this incidence.
     pub(super) fn arriving(
         &self,
         incident: &Incidence<T>,

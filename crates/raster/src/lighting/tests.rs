@@ -127,7 +127,7 @@ fn expected(case: &Case) -> [f64; 3] {
     equations::shade(&surface, &material, &[source], [0.0; 3], &view, case.reflectance)
 }
 
-/// What the twin makes of a case, in every lane.
+/// The result of the twin for a case, in every lane.
 fn shaded<S: Simd>(simd: S, case: &Case) -> [[f32; MOST_LANES]; 3] {
     let (p, n) = (splat3(simd, case.p), splat3(simd, case.n));
     let points = Points::new(simd, p, n, to_viewer(simd, p, n, case.local_viewer));

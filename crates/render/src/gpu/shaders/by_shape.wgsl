@@ -1,4 +1,4 @@
-// What an image has at a fragment where its filter goes by the footprint's shape: twins of
+// An image at a fragment where its filter goes by the footprint's shape: twins of
 // halfway_texture::lookup. Needs maps.wgsl.
 
 // 0 by D alone, 1 a ripmap, 2 summed areas, 3 to 6 up to 2, 4, 8 and 16 probes, 7 the elliptical mean.

@@ -3,7 +3,7 @@
 // the fragment stages share it. Each function and each constant here has a twin of the same name in
 // halfway_lighting::equations, written apart; a test calls each function on the adapter and compares it with its twin.
 
-// What the pipeline knows of its draws. The equations with a switch off are those of draws that need no more.
+// The switches of a pipeline. The equations with a switch off are those of draws that need no more.
 override BLINN_PHONG: bool = true;          // else Phong
 override LOCAL_VIEWER: bool = true;
 override ATTENUATED_AMBIENT: bool = true;   // some light attenuates its ambient color
@@ -58,7 +58,7 @@ struct Incidence {
     weight: f32,
 }
 
-// What lights bring to a point, before the material: colour · att · spot · factor, of one light or summed over several.
+// The light at a point, before the material: colour · att · spot · factor, of one light or summed over several.
 struct Irradiance {
     ambient: vec3f,
     diffuse: vec3f,
@@ -204,7 +204,7 @@ fn specular_term(n: vec3f, l: vec3f, v: vec3f, shininess: f32) -> f32 {
     return specular_phong(n, l, v, exponent);
 }
 
-// What one light brings to a point.
+// The light of one source at a point.
 fn irradiance(light: Light, incident: Incidence, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
     var result = Irradiance();
     let weight = select(0.0, incident.weight, dot(n, incident.l) > incident.grazing);

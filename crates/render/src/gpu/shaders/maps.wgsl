@@ -209,7 +209,7 @@ fn way_on(slot: u32, way: vec2f) -> vec2f {
     return vec2f(dot(placings.each[slot].row0.xy, way), dot(placings.each[slot].row1.xy, way));
 }
 
-// What is beyond all numbers is taken for 0.
+// Numbers beyond the range are taken for 0.
 fn place_on(slot: u32, look: u32, c: Coordinates) -> vec2f {
     let at = way_on(slot, of_set(look, c.uv)) + vec2f(placings.each[slot].row0.z, placings.each[slot].row1.z);
     return select(vec2f(), at, abs(at) <= vec2f(3.4e38));

@@ -1,4 +1,4 @@
-// What the stages of surfaces share. Needs lighting.wgsl, records.wgsl, and uniform.wgsl or storage.wgsl.
+// Declarations that the stages of surfaces share. Needs lighting.wgsl, records.wgsl, and uniform.wgsl or storage.wgsl.
 
 override BLEND: bool = false;
 override ENCODED: bool = false;        // the target has no sRGB format: the curve is the shader's

@@ -1,4 +1,4 @@
-// What draws read, and what a pipeline knows of them. Needs lighting.wgsl and the lights by their kind.
+// Records that draws read, and the switches of a pipeline. Needs lighting.wgsl and the lights by their kind.
 
 // The lights are those that the record's lists name. Else they are the first ones bound, so many.
 override LISTED: bool = false;

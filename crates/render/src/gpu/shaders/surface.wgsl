@@ -99,7 +99,7 @@ struct Varyings {
 #end
 }
 
-// What a surface gives back of the light that arrives, in the parts that images multiply.
+// The reflected part of the light that arrives, in the parts that images multiply.
 struct Parts {
     ambient: vec3f,
     diffuse: vec3f,
@@ -131,7 +131,7 @@ fn side(record: u32, front: bool) -> Material {
     return surfaces[record].front;
 }
 
-// What a vertex has of the terms that are shaded at the vertices.
+// The terms of a vertex that are shaded at the vertices.
 fn vertex_parts(p: vec3f, n: vec3f, material: Material, color: vec3f, record: u32) -> Parts {
     return parts(vertex_terms(p, n, material.shininess, record), material, color);
 }
@@ -216,7 +216,7 @@ fn vs_surface(object: Object, vertex: Vertex) -> Varyings {
 }
 
 #if VERTEX
-// What the vertices have handed on of the side that is seen.
+// The interpolated terms of the side that is seen.
 fn parts_of_vertices(in: Varyings, front: bool) -> Parts {
     var sums: Parts;
 #if MAPPED
@@ -250,7 +250,7 @@ fn parts_of_vertices(in: Varyings, front: bool) -> Parts {
 #end
 
 #if RELIEF
-// What images make of a fragment's normal, and of what highlights take of it.
+// A fragment's normal after images, and the inputs of its highlights.
 struct Relief {
     n: vec3f,
     covariance: vec3f,    // of the slopes
@@ -264,7 +264,7 @@ fn eye_direction(object: Object, direction: vec3f) -> vec3f {
 // Of a fragment whose normal is n without images.
 fn relief(in: Varyings, c: Coordinates, n: vec3f) -> Relief {
     let amount = placings.each[6].row0.w;
-    // What is mirrored turns twice as far.
+    // A mirrored direction turns twice as far.
     let turns = select(2.0 * amount, amount, BLINN_PHONG);
     if LEAN {
         let slopes = at_footprint(normal_image, 6u, NORMAL_MAP, c).xy;
@@ -307,7 +307,7 @@ fn in_solid(v: vec4f) -> vec3f {
     return vec3f(dot(solid.rows[0], v), dot(solid.rows[1], v), dot(solid.rows[2], v));
 }
 
-// What the solid multiplies the ambient and the diffuse part by; c is where the fragment lies in the object's space.
+// The factor of the solid for the ambient and the diffuse part; c is where the fragment lies in the object's space.
 fn solid_color(c: Coordinates) -> vec3f {
     let x = in_solid(vec4f(c.dx.xyz, 0.0));
     let y = in_solid(vec4f(c.dy.xyz, 0.0));
@@ -347,7 +347,7 @@ fn with_images(sums: Parts, emission: vec3f, opacity: f32, c: Coordinates) -> ve
 }
 #end
 
-// What a target takes.
+// The output for a target.
 fn output(shade: vec4f) -> vec4f {
     return vec4f(written(shade.rgb), select(1.0, shade.a, BLEND));
 }

@@ -50,7 +50,7 @@ fn surroundings_at(d: vec3f, level: f32) -> vec3f {
     return mix(a, b, within - finer);
 }
 
-// What it adds to the ambient, and to the specular part, before the material.
+// Its light in the ambient, and to the specular part, before the material.
 struct Arriving {
     mean: vec3f,
     seen: vec3f,

@@ -1,10 +1,10 @@
-// What becomes of a finished picture whose intensities exceed 1. Each function has a twin of the same name in
+// Policies for a finished picture whose intensities exceed 1. Each function has a twin of the same name in
 // `halfway_lighting::equations`.
 
 // Where `aces` has long reached 1: it does so at 7.25. More would overflow its squares.
 const ACES_WHITE: f32 = 8.0;
 
-// What a picture is divided by whose largest channel is `largest`.
+// The divisor of a picture whose largest channel is `largest`.
 fn divisor(largest: f32, before: f32, smoothing: f32) -> f32 {
     let plain = max(largest, 1.0);
     return plain + smoothing * (before - plain);
