@@ -10,8 +10,8 @@ pub use bevy_transform::prelude::{GlobalTransform, Transform, TransformPlugin};
 pub use halfway_asset::{Assets, Handle};
 pub use halfway_lighting::{
     Attenuation, BackMaterial, Blend, Camera, Cone, DirectionalLight, Encoding, Faces, Frequency, GlobalAmbient,
-    Intensity, LightingPlugin, Mask, Material, PointLight, Reflectance, Samples, Shading, SpotLight, Terms, Tolerance,
-    VertexColors, ViewTolerance, Viewer, Visibility,
+    Intensity, LightingPlugin, Mask, Material, PointLight, Projection, Reflectance, Samples, Shading, SpotLight, Terms,
+    Tolerance, VertexColors, ViewTolerance, Viewer, Visibility,
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
 pub use halfway_render::{Compile, FrameReport, Headless, Picture, Pixels, RenderPlugin, RenderSet, render_picture};

@@ -186,7 +186,7 @@ fn ten_colours_between_two_vertices() {
     let margin = 1.0 / 16.0;
     let mut stage = Stage::new(COUNT, 1);
     let mut scene = Scene::in_eye_space();
-    let half = (0.5 * scene.camera.fov_y).tan() * 10.0;
+    let half = 0.5 * scene.camera.projection.height_at(10.0_f32);
     let [left, right] = [-1.0, 1.0].map(|side: f32| side * half * (9.0 + 2.0 * margin as f32) / 10.0);
     let corners = [[left, -1.0, -1.0], [right, -1.0, -1.0], [right, 1.0, -1.0], [left, 1.0, -1.0]];
     let [a, b] = [n1, n2].map(|n| n.as_vec3().to_array());

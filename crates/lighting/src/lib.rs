@@ -16,7 +16,7 @@
 //! | spot | max(cos φ, 0)^e if cos φ ≥ cos(cutoff) else 0; φ between −l and the spot direction; an inner cone fades smoothly to the cutoff | cutoff in [0, π/2], or π = no cone; e ≥ 0 | [`Cone`] |
 //! | S (Phong) | max(r·v, 0)^α, r = 2(n·l)n − l | gate: 0 unless n·l > 0 | [`Reflectance::Phong`] |
 //! | S (Blinn–Phong) | max(n·h, 0)^β, h = (l + v)/‖l + v‖ | gate: 0 unless n·l > 0 | [`Reflectance::BlinnPhong`] |
-//! | v | local viewer: toward the eye; infinite viewer: (0, 0, 1) in eye space | | [`Viewer`] |
+//! | v | local viewer: toward the eye; infinite viewer: (0, 0, 1) in eye space; orthographic camera: v = +Z in eye space at every point | | [`Viewer`], [`Projection`] |
 //!
 //! All vectors have unit length, all colours are linear RGB (a [`LinearRgba`](bevy_color::LinearRgba) whose alpha is
 //! ignored), angles are in radians. Sources: Phong 1975 and Blinn 1977 for S, OpenGL 2.1 §2.14.1 for the sum, the
@@ -70,6 +70,7 @@ mod material;
 mod place;
 mod plugin;
 mod presets;
+mod projection;
 mod propagation;
 mod range;
 pub mod record;
@@ -88,6 +89,7 @@ pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
 pub use place::{light_direction, light_position, rotation_along};
 pub use plugin::LightingPlugin;
+pub use projection::{DepthSpan, Lens, LensTerms, Projection, ViewRay};
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
 pub use shading::{Blend, Faces, Mask, Reflectance, Shading, Terms, Viewer};

@@ -2,8 +2,8 @@
 
 use crate::error::{LARGEST_SIDE, RasterError};
 use crate::pass::{DrawCall, DrawMaps, Output, Pass, SurroundingsData};
-use halfway_lighting::Frequency;
 use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
+use halfway_lighting::{Frequency, Lens};
 use halfway_texture::{MapKind, SolidTexture};
 
 /// Checks all of a pass but what drawing it finds out.
@@ -94,9 +94,15 @@ fn check_view(pass: &Pass) -> Result<(), RasterError> {
         let is_right = value.is_finite() && value > 0.0;
         if is_right { Ok(()) } else { wrong("lens", 0, field, value, "a finite number above 0") }
     };
-    positive("scale", pass.lens.scale[0])?;
-    positive("scale", pass.lens.scale[1])?;
-    positive("near", pass.lens.near)
+    let Lens { scale, near, far, is_parallel } = pass.lens;
+    positive("scale", scale[0])?;
+    positive("scale", scale[1])?;
+    if !is_parallel {
+        return positive("near", near);
+    }
+    finite("lens", 0, "near", &[near])?;
+    let is_right = far.is_finite() && far > near;
+    if is_right { Ok(()) } else { wrong("lens", 0, "far", far, "a finite number above near") }
 }
 
 fn check_light(index: usize, light: &LightRecord) -> Result<(), RasterError> {

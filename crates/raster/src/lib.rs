@@ -2,9 +2,9 @@
 //! has. It knows neither a graphics interface nor an ECS; what is drawn is plain data, a [`Pass`].
 //!
 //! ```
-//! use halfway_lighting::Samples;
+//! use halfway_lighting::{Lens, Samples};
 //! use halfway_lighting::record::{InstanceRecord, MaterialRecord, SurfaceRecord};
-//! use halfway_raster::{ClearTiles, DrawCall, Lens, Output, Pass, Pieces, PixelFormat, Rasterizer, RasterOptions};
+//! use halfway_raster::{ClearTiles, DrawCall, Output, Pass, Pieces, PixelFormat, Rasterizer, RasterOptions};
 //! use halfway_raster::{TriangleOrder, VertexLists};
 //!
 //! # fn main() -> Result<(), halfway_raster::RasterError> {
@@ -18,7 +18,7 @@
 //!         samples: Samples::One,
 //!         pixels: PixelFormat::SrgbBytes,
 //!         clear: [0.0; 3],
-//!         lens: Lens { scale: [2.0, 2.0], near: 0.1 },
+//!         lens: Lens::perspective([2.0, 2.0], 0.1),
 //!         local_viewer: true,
 //!         lights: &[],
 //!         lists: &[],
@@ -88,7 +88,7 @@ mod width;
 
 pub use bands::ClearTiles;
 pub use error::{LARGEST_SIDE, RasterError};
-pub use pass::{Cull, DrawCall, DrawMaps, Lens, MapCall, MapData, Output, Pass, PixelFormat, SurroundingsData};
+pub use pass::{Cull, DrawCall, DrawMaps, MapCall, MapData, Output, Pass, PixelFormat, SurroundingsData};
 pub use pieces::{Pieces, TriangleOrder, VertexLists};
 pub use rasterizer::{RasterOptions, Rasterizer};
 pub use threads::Threads;

@@ -40,7 +40,7 @@ pub use target::frame::Headless;
 pub use target::picture::{PendingPicture, render_picture};
 pub use target::surface::{SurfaceLost, SurfaceTarget};
 pub use target::texture::TextureTarget;
-pub use view::camera::{Projection, View};
+pub use view::camera::View;
 pub use view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 /// The wgpu that the renderer speaks; surfaces are made with it.
 pub use wgpu;

@@ -71,7 +71,7 @@ const CHANGES: [Change; 14] = [
             thing.frames.push(Transform::from_scale(Vec3::new(-0.9, 1.2, 0.7)));
         });
     }),
-    ("through the near plane", |scene| scene.camera.near = 2.6),
+    ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
 ];
 
 const REFLECTANCES: [(&str, Reflectance); 3] = [

@@ -158,10 +158,10 @@ fn places_views_and_meshes() -> Vec<(&'static str, Scene)> {
             "a rolled camera with a wide view",
             with(|scene| {
                 scene.eye.rotation *= Quat::from_rotation_z(0.8);
-                scene.camera.fov_y = 1.6;
+                scene.camera.projection = Projection::perspective(1.6);
             }),
         ),
-        ("cut by the near plane", with(|scene| scene.camera.near = 2.9)),
+        ("cut by the near plane", with(|scene| scene.camera.projection = scene.camera.projection.with_near(2.9))),
         ("normals that cancel", {
             let (left, right) = ([1.0, 0.0, 0.1], [-1.0, 0.0, 0.1]);
             Scene::in_eye_space()

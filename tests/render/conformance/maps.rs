@@ -47,7 +47,7 @@ const CHANGES: [Change; 7] = [
             *thing = thing.clone().faces(Faces::Both).back(other_material()).blended(0.8);
         }
     }),
-    ("through the near plane", |scene| scene.camera.near = 2.6),
+    ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
     ("beside what has none, instanced", |scene| {
         for x in [-1.2, 1.2] {
             let at = Transform::from_xyz(x, 0.3, 0.0).with_scale(Vec3::splat(0.4));
@@ -236,7 +236,7 @@ const CIRCUMSTANCES: [Change; 8] = [
     ("mirrored and stretched", |scene| {
         scene.things.iter_mut().for_each(|thing| thing.frames.push(Transform::from_scale(Vec3::new(0.8, -1.1, 1.3))));
     }),
-    ("through the near plane", |scene| scene.camera.near = 2.6),
+    ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
     ("masked, matched", |scene| {
         scene.view_reflectance = Some(Reflectance::BlinnPhongMatched);
         for thing in &mut scene.things {

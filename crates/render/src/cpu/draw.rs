@@ -17,8 +17,8 @@ use crate::target::texture::TextureTarget;
 use crate::view::camera::{PictureSize, View};
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
-use halfway_lighting::{Encoding, Frequency, Intensity, Viewer};
-use halfway_raster::{LARGEST_SIDE, Lens, Pass, PixelFormat};
+use halfway_lighting::{Encoding, Frequency, Intensity, Lens};
+use halfway_raster::{LARGEST_SIDE, Pass, PixelFormat};
 
 impl Backend for Cpu {
     fn lights_images_by_environments(&self) -> bool {
@@ -110,7 +110,7 @@ pub(crate) fn draw(
         },
         clear: [red, green, blue],
         lens: lens(&view),
-        local_viewer: camera.viewer == Viewer::Local,
+        local_viewer: camera.eye::<f32>().is_local(),
         lights: &lit.lists.sent.records,
         lists: &lit.lists.numbers,
         surfaces: &lit.records,
@@ -135,7 +135,8 @@ pub(crate) fn draw(
 
 /// The view's projection, in its unit.
 fn lens(view: &View) -> Lens {
-    // What underflows would be refused.
-    let near = (view.projection.near * view.unit() as f32).max(f32::MIN_POSITIVE);
-    Lens { scale: view.projection.scale, near }
+    let lens = view.lens_of_shaders();
+    // A positive number that underflows would be refused.
+    let near = if view.lens.near > 0.0 { lens.near.max(f32::MIN_POSITIVE) } else { lens.near };
+    Lens { near, ..lens }
 }

@@ -199,7 +199,7 @@ macro_rules! fields {
 /// Each record by the name of its struct.
 fn records() -> [(&'static str, (Vec<Field>, usize)); 4] {
     [
-        ("View", fields!(ViewRecord { scale, near })),
+        ("View", fields!(ViewRecord { scale, depth, w })),
         (
             "Light",
             fields!(LightRecord {

@@ -137,7 +137,7 @@ fn other_drags_pan() {
 fn panning_follows_the_field_of_view_and_the_area() {
     let mut stage = Stage::new(16);
     stage.app.insert_resource(DragArea(Vec2::new(200.0, 100.0)));
-    let camera = Camera { fov_y: FRAC_PI_2, ..Camera::default() };
+    let camera = Camera::perspective(FRAC_PI_2);
     stage.app.world_mut().entity_mut(stage.camera).insert(camera);
     stage.drag(MouseButton::Right, 50.0, 0.0);
     // 90° see 10 high at a distance of 5, and 50 pixels are half of it.
