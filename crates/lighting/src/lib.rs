@@ -30,6 +30,8 @@
 //!   [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
+//! - [`Camera`] and its [`Projection`], perspective or orthographic; [`Lens`], the projection on a picture, answers what
+//!   depends on it: clip space, rays, the frustum, the size of a pixel.
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`record`]: lights, materials and instances as whatever draws reads them.

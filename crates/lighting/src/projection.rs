@@ -117,13 +117,17 @@ impl Projection {
         }
     }
 
-    /// The projection after the camera has moved until its distance from what it looks at is `factor` times as large.
-    /// An orthographic picture shows `factor` times as much; a perspective stays as it is.
+    /// The projection after the camera has moved along its view from one distance from what it looks at to another. An
+    /// orthographic picture shows more by the same factor, and its planes stay where they are; a perspective stays as it
+    /// is.
     #[must_use]
-    pub const fn zoomed(self, factor: f32) -> Self {
+    pub fn moved(self, from: f32, to: f32) -> Self {
         match self {
             Self::Perspective { .. } => self,
-            Self::Orthographic { height, near, far } => Self::Orthographic { height: height * factor, near, far },
+            Self::Orthographic { height, near, far } => {
+                let plane = |depth: f32| depth + (to - from);
+                Self::Orthographic { height: height * (to / from), near: plane(near), far: far.map(plane) }
+            }
         }
     }
 

@@ -138,9 +138,12 @@ mod tests {
     const SIZE: [f32; 2] = [1280.0, 720.0];
 
     fn placed(rows: [[f32; 4]; 3]) -> PlacedInstance {
+        seen_by(Lens::perspective([1.0, 16.0 / 9.0], 0.1), rows)
+    }
+
+    fn seen_by(lens: Lens, rows: [[f32; 4]; 3]) -> PlacedInstance {
         let column = |k: usize| (0..3).map(|row| f64::from(rows[row][k]).powi(2)).sum::<f64>();
         let stretch = (column(0) + column(1) + column(2)).sqrt() as f32;
-        let lens = Lens::perspective([1.0, 16.0 / 9.0], 0.1);
         PlacedInstance { rows, stretch, left_out: 0.0, lens, inner_near: inner_near(lens.near), size: SIZE }
     }
 
@@ -165,6 +168,11 @@ mod tests {
             points in prop::collection::vec(prop::array::uniform3(-1.0_f32..=1.0), 3..20),
             rows in prop::array::uniform3(prop::array::uniform3(-1.5_f32..1.5)),
             to in [-4.0_f32..4.0, -3.0..3.0, -9.0..-0.2],
+            lens in prop::sample::select(vec![
+                Lens::perspective([1.0, 16.0 / 9.0], 0.1),
+                Lens::orthographic([0.3, 0.3 * 16.0 / 9.0], [-1.0, 20.0]),
+                Lens::orthographic([0.3, 0.3 * 16.0 / 9.0], [2.0, 20.0]),
+            ]),
         ) {
             let points = points.into_iter().map(|p| [0, 1, 2].map(|k| away * middle[k] + half[k] * p[k]));
             let points: Vec<[f32; 3]> = points.collect();
@@ -172,7 +180,7 @@ mod tests {
                 let [a, b, c] = rows[row];
                 [a, b, c, to[row] - away * (a * middle[0] + b * middle[1] + c * middle[2])]
             });
-            let placed = placed(rows);
+            let placed = seen_by(lens, rows);
             let tiles = placed.tiles(&PieceExtent::of(points.iter().copied()));
             let at_hand = tiles.filter(TileBox::is_at_hand);
             for point in points {
@@ -193,8 +201,7 @@ mod tests {
         let at_hand = |x: f32, z: f32, near: f32| {
             let rows = [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, z]];
             let plate = [[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.1, 0.1, 0.0], [-0.1, 0.1, 0.0]];
-            let lens = Lens::perspective([1.0, 16.0 / 9.0], near);
-            let placed = PlacedInstance { lens, inner_near: inner_near(near), ..placed(rows) };
+            let placed = seen_by(Lens::perspective([1.0, 16.0 / 9.0], near), rows);
             placed.tiles(&PieceExtent::of(plate.into_iter())).is_some_and(|tiles| tiles.is_at_hand())
         };
         assert!(at_hand(0.3, -4.0, 0.1));

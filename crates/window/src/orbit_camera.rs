@@ -63,9 +63,8 @@ impl OrbitCamera {
         self.orbit = self.start;
     }
 
-    /// Moves by what the user asked for, under the camera's projection. Returns how many times as far away the camera is
-    /// afterwards.
-    fn apply(&mut self, wish: &Wish, projection: &Projection) -> f32 {
+    /// Moves by what the user asked for, under the camera's projection; returns that of the moved camera.
+    fn apply(&mut self, wish: &Wish, projection: Projection) -> Projection {
         let before = self.orbit.distance;
         if wish.reset {
             self.reset();
@@ -81,7 +80,7 @@ impl OrbitCamera {
         if wish.zoom != 0.0 {
             self.zoom(wish.zoom.exp());
         }
-        self.orbit.distance / before
+        projection.moved(before, self.orbit.distance)
     }
 }
 
@@ -243,11 +242,11 @@ fn drive(
         }
         if wish != Wish::default() {
             let projection = camera.as_ref().map_or_else(Projection::default, |camera| camera.projection);
-            let zoomed = projection.zoomed(orbit.apply(&wish, &projection));
+            let moved = orbit.apply(&wish, projection);
             if let Some(mut camera) = camera
-                && zoomed != projection
+                && moved != projection
             {
-                camera.projection = zoomed;
+                camera.projection = moved;
             }
         }
         if orbit.shown != Some(orbit.orbit) {

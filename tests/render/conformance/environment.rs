@@ -47,7 +47,7 @@ fn each_material(scene: &mut Scene, change: impl Fn(&mut Material)) {
 }
 
 /// What makes no difference to how it is shaded.
-const CHANGES: [Change; 14] = [
+const CHANGES: [Change; 16] = [
     ("all", |_| ()),
     ("harmonics alone", |scene| each_material(scene, |material| material.specular = LinearRgba::BLACK)),
     ("mirrored alone", |scene| each_material(scene, |material| material.diffuse = LinearRgba::BLACK)),
@@ -72,6 +72,11 @@ const CHANGES: [Change; 14] = [
         });
     }),
     ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
+    ("orthographic", |scene| scene.camera.projection = Projection::orthographic(2.7)),
+    ("orthographic sky", |scene| {
+        scene.camera.projection = Projection::orthographic(2.7);
+        scene.environment.as_mut().expect("one").sky = true;
+    }),
 ];
 
 const REFLECTANCES: [(&str, Reflectance); 3] = [

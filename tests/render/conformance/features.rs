@@ -162,6 +162,32 @@ fn places_views_and_meshes() -> Vec<(&'static str, Scene)> {
             }),
         ),
         ("cut by the near plane", with(|scene| scene.camera.projection = scene.camera.projection.with_near(2.9))),
+        (
+            "an orthographic camera amid the objects",
+            with(|scene| {
+                scene.camera.projection = Projection::orthographic(3.0).with_near(-4.0);
+                scene.eye.translation *= 0.1;
+            }),
+        ),
+        (
+            "an orthographic camera far away",
+            with(|scene| {
+                scene.camera.projection = Projection::orthographic(3.0);
+                scene.eye.translation *= 300.0;
+            }),
+        ),
+        (
+            "an orthographic plan",
+            with(|scene| {
+                let (camera, eye) = Camera::orthographic(4.0).framing((Vec3::ZERO, 1.6), Vec3::NEG_Y);
+                (scene.camera.projection, scene.eye) = (camera.projection, eye);
+            }),
+        ),
+        ("130 lights under an orthographic camera", {
+            let mut scene = lights(130);
+            scene.camera.projection = Projection::orthographic(3.0);
+            scene
+        }),
         ("normals that cancel", {
             let (left, right) = ([1.0, 0.0, 0.1], [-1.0, 0.0, 0.1]);
             Scene::in_eye_space()
