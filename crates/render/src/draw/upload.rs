@@ -11,7 +11,7 @@ use crate::frame::report::FrameReport;
 use crate::lights::surroundings::Surroundings;
 use crate::pipelines::cache::Pipelines;
 use crate::shaders::light_slots::COUNTED_LIGHTS;
-use crate::shaders::records::{RECORD_BYTES, ViewRecord};
+use crate::shaders::records::{RECORD_BYTES, VIEW_BYTES, ViewRecord};
 use crate::shaders::text::{COUNTED_LIGHT_BYTES, LightText, Text};
 use crate::target::frame::Target;
 use crate::view::camera::View;
@@ -193,7 +193,7 @@ impl Buffers {
         };
         let make = |group: &mut Option<_>, text, entries: &[_]| {
             if let (None, Some(layout)) = (&group, pipelines.bindings(text)) {
-                let entries = &[&[binding(0, view, 16)], entries].concat();
+                let entries = &[&[binding(0, view, VIEW_BYTES)], entries].concat();
                 let descriptor = wgpu::BindGroupDescriptor { label: Some("draw"), layout, entries };
                 *group = Some(gpu.device.create_bind_group(&descriptor));
             }

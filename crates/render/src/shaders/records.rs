@@ -31,6 +31,8 @@ impl From<&View> for ViewRecord {
     }
 }
 
+pub(crate) const VIEW_BYTES: u64 = size_of::<ViewRecord>() as u64;
+
 /// What an object is cut from; `SolidData` in surface.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]

@@ -3,7 +3,7 @@
 use crate::device::gpu::Gpu;
 use crate::lights::terms::{by_fragment_shader, by_vertex_shader};
 use crate::shaders::light_slots::COUNTED_LIGHTS;
-use crate::shaders::records::RECORD_BYTES;
+use crate::shaders::records::{RECORD_BYTES, VIEW_BYTES};
 use crate::shaders::switches::assembled;
 use crate::shaders::template::Template;
 use bevy_platform::collections::HashMap;
@@ -200,7 +200,7 @@ fn draw_bindings(gpu: &Gpu, lights: LightText) -> wgpu::BindGroupLayout {
     };
     let uniform = wgpu::BufferBindingType::Uniform;
     let read = wgpu::BufferBindingType::Storage { read_only: true };
-    let mut entries = vec![entry(0, uniform, 16)];
+    let mut entries = vec![entry(0, uniform, VIEW_BYTES)];
     match lights {
         LightText::Few => entries.extend([entry(1, uniform, RECORD_BYTES), entry(2, uniform, COUNTED_LIGHT_BYTES)]),
         LightText::Listed => {
