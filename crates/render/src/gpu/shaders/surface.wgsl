@@ -157,7 +157,7 @@ fn vs_surface(object: Object, vertex: Vertex) -> Varyings {
 #if TWO_SIDED
     // Of one side the rasteriser shows what winds as the front does. It snaps vertices to a grid, so that of a triangle
     // seen edge-on, or smaller than the grid, it may find another side than n·p does.
-    front = dot(n, p) <= 0.0;
+    front = dot(n, sight(p)) <= 0.0;
     n = select(-n, n, front);
     out.is_front = u32(front);
 #end
@@ -381,7 +381,7 @@ fn fs_surface(
     sums = Parts(sums.ambient + of_vertices.ambient, of_vertices.diffuse, of_vertices.specular);
 #end
 #if MAPPED
-    let c = coordinates(in.uv, in.at, -in.middle.z);
+    let c = coordinates(in.uv, in.at, clip_w(in.middle));
 #end
 #if NORMALS_AT_FRAGMENTS
     // The exponent of highlights, and what they are multiplied by.
@@ -427,7 +427,7 @@ fn fs_surface(
 #end
 #end
 #if SOLID
-    let cut = solid_color(coordinates(in.place, in.at_center, -in.middle.z));
+    let cut = solid_color(coordinates(in.place, in.at_center, clip_w(in.middle)));
     sums = Parts(cut * sums.ambient, cut * sums.diffuse, sums.specular);
 #end
     var emission = vec3f();
