@@ -123,6 +123,11 @@ fn materials_and_lights() -> Vec<(&'static str, Scene)> {
         ("a hemisphere among nine lights", lights(9).lit(outside())),
         ("nine lights", lights(9)),
         ("130 lights", lights(130)),
+        ("an orthographic camera and 20 lights", {
+            let mut scene = lights(20);
+            scene.camera.projection = Projection::orthographic(3.0);
+            scene
+        }),
     ]
 }
 
