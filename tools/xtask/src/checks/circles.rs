@@ -3,6 +3,9 @@
 //! A file uses the files whose items it names, by `use` or by a path; where the name is re-exported on the way, the
 //! file that defines it counts. Declaring a module or re-exporting a name is not a use. Uses of a module's own children
 //! do not count either: they are its parts, and it may know them.
+//!
+//! The same holds for folders that lie beside each other: the files of one together, with the file of the folder's own
+//! module.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
@@ -20,7 +23,9 @@ pub(crate) fn run(root: &Path) -> Result {
     let mut faults = Vec::new();
     for package in packages(root)? {
         for first in &package.roots {
-            faults.extend(circles(&ties(&Crate::read(first)?), root));
+            let ties = ties(&Crate::read(first)?);
+            faults.extend(circles(&ties, root, "files"));
+            faults.extend(circles(&between_folders(&ties), root, "folders"));
         }
     }
     none_of(&faults)
@@ -52,8 +57,30 @@ fn ties(krate: &Crate) -> Ties {
     ties
 }
 
+/// The same ties between folders that lie beside each other: each tie of two files counts for the folders in which their
+/// paths part, where both are folders.
+fn between_folders(ties: &Ties) -> Ties {
+    let files = ties.iter().flat_map(|(file, used)| [file].into_iter().chain(used.keys()));
+    let folders: BTreeSet<&Path> = files.flat_map(|file| file.ancestors().skip(1)).collect();
+    let mut between = Ties::new();
+    for (file, other, names) in ties.iter().flat_map(|(file, used)| used.iter().map(move |(o, names)| (file, o, names))) {
+        let parent = file.ancestors().find(|folder| other.starts_with(folder)).unwrap_or(Path::new(""));
+        // The file of a folder's module, `name.rs`, belongs to the folder `name`.
+        let part = |file: &Path| {
+            let next = file.strip_prefix(parent).ok()?.components().next()?;
+            Some(parent.join(next).with_extension("")).filter(|part| folders.contains(part.as_path()))
+        };
+        if let (Some(from), Some(to)) = (part(file), part(other))
+            && from != to
+        {
+            between.entry(from).or_default().entry(to).or_default().extend(names.iter().cloned());
+        }
+    }
+    between
+}
+
 /// A description of each circle that shares no file with one described before: the shortest through its first file.
-fn circles(ties: &Ties, root: &Path) -> Vec<String> {
+fn circles(ties: &Ties, root: &Path, kind: &str) -> Vec<String> {
     let mut done = BTreeSet::new();
     let mut found = Vec::new();
     for file in ties.keys() {
@@ -65,7 +92,7 @@ fn circles(ties: &Ties, root: &Path) -> Vec<String> {
         if tied.is_empty() {
             continue;
         }
-        found.push(described(ties, &shortest(ties, &tied), &tied, root));
+        found.push(described(ties, &shortest(ties, &tied), &tied, root, kind));
         done.extend(tied);
     }
     found
@@ -109,19 +136,19 @@ fn shortest(ties: &Ties, tied: &BTreeSet<PathBuf>) -> Vec<PathBuf> {
     tied.iter().filter_map(around).min_by_key(Vec::len).unwrap_or_default()
 }
 
-fn described(ties: &Ties, circle: &[PathBuf], tied: &BTreeSet<PathBuf>, root: &Path) -> String {
+fn described(ties: &Ties, circle: &[PathBuf], tied: &BTreeSet<PathBuf>, root: &Path, kind: &str) -> String {
     let short = |file: &Path| file.strip_prefix(root).unwrap_or(file).display().to_string();
     let steps = circle.windows(2).map(|step| {
         let names: Vec<&str> = ties[&step[0]][&step[1]].iter().map(String::as_str).collect();
         format!("      {} takes {} from {}", short(&step[0]), names.join(", "), short(&step[1]))
     });
     let steps: Vec<String> = steps.collect();
-    let text = format!("{} files in a circle:\n{}", steps.len(), steps.join("\n"));
+    let text = format!("{} {kind} in a circle:\n{}", steps.len(), steps.join("\n"));
     if tied.len() == steps.len() {
         return text;
     }
     let all: Vec<String> = tied.iter().map(|file| short(file)).collect();
-    format!("{text}\n      which is the shortest of the circles that tie {} files: {}", all.len(), all.join(", "))
+    format!("{text}\n      which is the shortest of the circles that tie {} {kind}: {}", all.len(), all.join(", "))
 }
 
 #[cfg(test)]
@@ -132,7 +159,25 @@ mod tests {
     /// The circles of a crate whose files are given.
     fn found(files: &[(&str, &str)]) -> Vec<String> {
         let (folder, krate) = planted(files);
-        circles(&ties(&krate), folder.path())
+        circles(&ties(&krate), folder.path(), "files")
+    }
+
+    #[test]
+    fn circles_of_folders_are_found_where_files_form_none() {
+        let files = [
+            ("lib.rs", "mod a; mod b; mod c;"),
+            ("a/mod.rs", "mod one; pub mod two;"),
+            ("a/one.rs", "pub fn one() { crate::b::b() }"),
+            ("a/two.rs", "pub fn two() {}"),
+            ("b.rs", "mod inner; pub fn b() {}"),
+            ("b/inner.rs", "pub fn inner() { crate::a::two::two(); crate::c::c() }"),
+            ("c.rs", "pub fn c() { crate::a::two::two() }"),
+        ];
+        let (folder, krate) = planted(&files);
+        let ties = ties(&krate);
+        assert!(circles(&ties, folder.path(), "files").is_empty());
+        let expected = "2 folders in a circle:\n      a takes b from b\n      b takes two from a";
+        assert_eq!(circles(&between_folders(&ties), folder.path(), "folders"), [expected]);
     }
 
     #[test]
