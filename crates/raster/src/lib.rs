@@ -6,48 +6,23 @@
 )]
 #![expect(clippy::too_many_arguments, reason = "vectors are passed in registers, and not in structs in memory")]
 
-mod attributes;
-mod bands;
-mod bins;
-mod blend;
-mod check;
-mod clip;
-mod cover;
-mod encode;
 mod error;
-mod faces;
-mod four;
-mod hidden;
-mod lane_triangles;
-mod lanes;
+mod input;
 mod lighting;
-mod lobe;
-mod look;
-mod mapped;
-mod mapped_pixels;
-mod mapped_vertices;
-mod pass;
-mod pieces;
-mod placed;
-mod planes;
+mod pixels;
 mod policy;
-mod power;
 mod rasterizer;
-mod samples;
-mod screen;
-mod shade;
-mod state;
-mod surroundings;
+mod shading;
+mod simd;
 mod threads;
-mod tile;
-mod triangle;
+mod tiles;
+mod triangles;
 mod vertices;
-mod width;
 
-pub use bands::ClearTiles;
 pub use error::{LARGEST_SIDE, RasterError};
-pub use pass::{DrawCall, DrawMaps, MapCall, MapData, Output, Pass, PixelFormat};
-pub use pieces::{Pieces, TriangleOrder, VertexLists};
+pub use input::pass::{DrawCall, DrawMaps, MapCall, MapData, Output, Pass, PixelFormat};
+pub use input::pieces::{Pieces, TriangleOrder, VertexLists};
 pub use rasterizer::{RasterOptions, Rasterizer};
+pub use simd::width::{VectorWidth, WIDTH_VARIABLE};
 pub use threads::Threads;
-pub use width::{VectorWidth, WIDTH_VARIABLE};
+pub use tiles::bands::ClearTiles;

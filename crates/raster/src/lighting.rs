@@ -1,12 +1,14 @@
 //! The lighting text on vectors, one point a lane: a third twin of `halfway_lighting::equations` and `lighting.wgsl`,
 //! with their names. Eye space, linear RGB. The test beside it holds it to the equations in f64.
 
-use crate::lanes::{
+pub(crate) mod state;
+
+use crate::simd::lanes::{
     F, I, M, Simd, V3, add, add_scaled, dot, each, fma, max, min, neg, saturate, scale, select3, splat, splat_i,
     splat3, sub,
 };
-use crate::lobe::PointLobe;
-use crate::power::{Exponent, power};
+use crate::simd::lobe::PointLobe;
+use crate::simd::power::{Exponent, power};
 use fearless_simd::prelude::*;
 use halfway_lighting::equations::{ATTENUATION_MAX, COINCIDENT, GRAZING};
 use halfway_lighting::lights::Kind;

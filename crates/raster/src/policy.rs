@@ -1,11 +1,11 @@
 //! Policies for finished pictures whose intensities exceed 1.
 
-use crate::encode::srgb_encoded;
 use crate::error::RasterError;
-use crate::lanes::{F, MOST_LANES, Simd, fma, lanes, load, max, max_one, min, saturate, splat, store};
-use crate::pass::{Output, PixelFormat};
+use crate::input::pass::{Output, PixelFormat};
 use crate::rasterizer::Rasterizer;
-use crate::width::with_vectors;
+use crate::shading::encode::srgb_encoded;
+use crate::simd::lanes::{F, MOST_LANES, Simd, fma, lanes, load, max, max_one, min, saturate, splat, store};
+use crate::simd::width::with_vectors;
 use halfway_lighting::Intensity;
 use halfway_lighting::equations::{ACES_WHITE, divisor};
 use std::sync::atomic::{AtomicU32, Ordering};

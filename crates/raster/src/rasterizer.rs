@@ -1,15 +1,15 @@
 //! The rasterizer, which draws passes and hands their tiles to threads.
 
-use crate::bands::{Bands, ClearTiles};
-use crate::bins::Bins;
-use crate::check::check;
 use crate::error::RasterError;
-use crate::lanes::Simd;
-use crate::pass::{Output, Pass};
-use crate::screen::Screen;
+use crate::input::check::check;
+use crate::input::pass::{Output, Pass};
+use crate::simd::lanes::Simd;
+use crate::simd::width::{VectorWidth, with_vectors};
 use crate::threads::Threads;
-use crate::tile::{Scene, Worker};
-use crate::width::{VectorWidth, with_vectors};
+use crate::tiles::bands::{Bands, ClearTiles};
+use crate::tiles::bins::Bins;
+use crate::tiles::draw::{Scene, Worker};
+use crate::vertices::screen::Screen;
 use fearless_simd::Level;
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};

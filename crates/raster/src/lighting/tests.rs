@@ -1,9 +1,9 @@
 //! The twin against `halfway_lighting::equations` in f64, over random inputs and the edges, on every width.
 
 use super::*;
-use crate::lanes::MOST_LANES;
-use crate::lobe::Gloss;
-use crate::width::{VectorWidth, with_vectors};
+use crate::simd::lanes::MOST_LANES;
+use crate::simd::lobe::Gloss;
+use crate::simd::width::{VectorWidth, with_vectors};
 use fastrand::Rng;
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::{
@@ -139,7 +139,7 @@ fn shaded<S: Simd>(simd: S, case: &Case) -> [[f32; MOST_LANES]; 3] {
     let color = reflected(simd, &terms, &SIDE);
     let mut lanes = [[0.0; MOST_LANES]; 3];
     for c in 0..3 {
-        color[c].store_slice(&mut lanes[c][..crate::lanes::lanes::<S>()]);
+        color[c].store_slice(&mut lanes[c][..crate::simd::lanes::lanes::<S>()]);
     }
     lanes
 }

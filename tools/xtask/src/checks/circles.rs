@@ -63,7 +63,8 @@ fn between_folders(ties: &Ties) -> Ties {
     let files = ties.iter().flat_map(|(file, used)| [file].into_iter().chain(used.keys()));
     let folders: BTreeSet<&Path> = files.flat_map(|file| file.ancestors().skip(1)).collect();
     let mut between = Ties::new();
-    for (file, other, names) in ties.iter().flat_map(|(file, used)| used.iter().map(move |(o, names)| (file, o, names))) {
+    for (file, other, names) in ties.iter().flat_map(|(file, used)| used.iter().map(move |(o, names)| (file, o, names)))
+    {
         let parent = file.ancestors().find(|folder| other.starts_with(folder)).unwrap_or(Path::new(""));
         // The file of a folder's module, `name.rs`, belongs to the folder `name`.
         let part = |file: &Path| {
