@@ -25,7 +25,7 @@ pub use cpu::device::Cpu;
 #[cfg(feature = "wgpu")]
 pub use gpu::device::Gpu;
 #[cfg(feature = "wgpu")]
-pub use gpu::draw::pass::encode_frame;
+pub use gpu::passes::encode::encode_frame;
 #[cfg(feature = "wgpu")]
 pub use gpu::passes::over::{AddOverPass, OverPass, OverTarget, OverView};
 #[cfg(feature = "wgpu")]

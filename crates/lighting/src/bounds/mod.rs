@@ -69,12 +69,10 @@
 mod angle;
 mod patch;
 mod receiver;
-mod select;
 mod tolerance;
-mod tree;
 
+pub use crate::light_tree::LightTree;
+pub use crate::light_tree::Selected;
 pub use patch::{NormalCone, Patch};
 pub use receiver::{LitTerms, MARGIN, Receiver, TermBounds};
-pub use select::Selected;
 pub use tolerance::{STEP, linear_tolerance};
-pub use tree::LightTree;

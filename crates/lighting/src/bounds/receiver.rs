@@ -6,7 +6,7 @@ use crate::equations::vector::{cross, dot, length, mul, neg, scale, sub};
 use crate::equations::{
     COINCIDENT, Coefficients, ConeTerms, Eye, Real, power, reflect, specular_exponent, spot_factor,
 };
-use crate::lights::Colors;
+use crate::light_colors::Colors;
 use crate::{Faces, Reflectance};
 
 /// Relative margin of every bound. It covers the rounding of the factors that are not cosines: about 2·10⁻⁵ in `f32`,
@@ -162,7 +162,7 @@ impl<T: Real> Receiver<T> {
 
     /// The sphere that a light's range overlaps if the light adds anything: that of the patch, widened by the distance
     /// within which a light may count as being at a point of it, and as much again for the rounding of positions.
-    pub(super) fn search_sphere(&self) -> ([T; 3], T) {
+    pub(crate) fn search_sphere(&self) -> ([T; 3], T) {
         (self.center, (self.radius + self.coincident * T::of(2.0)) * (T::one() + slack()))
     }
 

@@ -34,7 +34,6 @@ mod normal;
 mod reflectance;
 mod relief;
 mod scene;
-mod shade;
 mod tone;
 mod transcendental;
 pub mod vector;
@@ -43,6 +42,7 @@ pub use crate::lights::{
     ATTENUATION_MAX, Colors, ConeTerms, Directional, Hemisphere, Light, Point, Spot, attenuation, range_window,
     spot_factor,
 };
+pub use crate::shade::{LightTerms, incidence, irradiance, light_contribution, light_terms, reflected, shade};
 pub use arrival::{COINCIDENT, GRAZING, Incidence, Irradiance, view_vector};
 pub use encoding::srgb_encoded;
 pub use environment::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
@@ -54,7 +54,6 @@ pub use reflectance::{
 pub use relief::{bumped_normal, lobe_axes, mapped_normal};
 pub(crate) use scene::unit;
 pub use scene::{Coefficients, Eye, ShadedPoint, rgb};
-pub use shade::{LightTerms, incidence, irradiance, light_contribution, light_terms, reflected, shade};
 pub use tone::{ACES_WHITE, aces, divisor, reinhard};
 pub use transcendental::Transcendental;
 pub use vector::Real;

@@ -4,13 +4,13 @@ use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
 use bevy_transform::components::Transform;
 
-use super::colors::{Colors, meaning};
 use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::{Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint, unit};
 use crate::field::{self, Described, Field, rgb};
 use crate::invalid::{Fields, InvalidValue};
+use crate::light_colors::{Colors, meaning};
 use crate::record::{LightRecord, number};
 
 /// A light so far away that its rays are parallel (w = 0) and do not weaken.
@@ -171,7 +171,7 @@ fn directional_light(light: Light, p: vec3f, n: vec3f, v: vec3f, shininess: f32,
     }
 
     fn cast<T: Real, U: Real>(source: &Directional<T>) -> Directional<U> {
-        Directional { toward: source.toward.map(super::falloff::number), colors: source.colors.cast() }
+        Directional { toward: source.toward.map(crate::falloff::number), colors: source.colors.cast() }
     }
 
     fn in_eye_space(source: &Directional<f64>, view: &LightView) -> Directional<f64> {

@@ -4,12 +4,12 @@ use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
 use bevy_transform::components::Transform;
 
-use super::falloff::number;
 use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::{add, dot, scale};
 use crate::equations::{self, Eye, Incidence, Irradiance, Real, ShadedPoint, unit};
+use crate::falloff::number;
 use crate::field::{self, Described, Field, rgb};
 use crate::invalid::{Fields, InvalidValue};
 use crate::record::{self, LightRecord};

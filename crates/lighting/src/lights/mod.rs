@@ -5,9 +5,7 @@
 //! the WGSL that calls the function of a light's kind, and [`LightQueries`]. Whatever draws asks a light by the traits
 //! [`LightKind`] and [`LightSource`].
 
-mod colors;
 mod directional;
-mod falloff;
 mod hemisphere;
 mod point;
 mod spot;
@@ -34,9 +32,9 @@ use crate::invalid::InvalidValue;
 use crate::record::LightRecord;
 use crate::visibility::Shown;
 
-pub use colors::Colors;
+pub use crate::falloff::{ATTENUATION_MAX, Attenuation, Cone, ConeTerms, attenuation, range_window, spot_factor};
+pub use crate::light_colors::Colors;
 pub use directional::{Directional, DirectionalLight};
-pub use falloff::{ATTENUATION_MAX, Attenuation, Cone, ConeTerms, attenuation, range_window, spot_factor};
 pub use hemisphere::{Hemisphere, HemisphereLight};
 pub use point::{Point, PointLight};
 pub use spot::{Spot, SpotLight};

@@ -4,15 +4,15 @@ use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
 use bevy_transform::components::Transform;
 
-use super::colors::{Colors, is_bright, meaning};
-use super::falloff::{Attenuation, ConeTerms, attenuation, number, range_window};
 use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::{length, toward};
 use crate::equations::{COINCIDENT, Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint};
+use crate::falloff::{Attenuation, ConeTerms, attenuation, number, range_window};
 use crate::field::{self, Described, Field, FieldPlace, rgb};
 use crate::invalid::{Fields, InvalidValue};
+use crate::light_colors::{Colors, is_bright, meaning};
 use crate::range::Range;
 use crate::record::{self, LightRecord};
 

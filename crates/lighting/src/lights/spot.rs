@@ -4,16 +4,16 @@ use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
 use bevy_transform::components::Transform;
 
-use super::colors::meaning;
-use super::falloff::{Attenuation, Cone, ConeTerms, spot_factor};
 use super::point::{Point, fields_at_a_position};
 use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView, PointLight};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::{dot, neg};
 use crate::equations::{Eye, Incidence, Irradiance, Real, ShadedPoint, unit};
+use crate::falloff::{Attenuation, Cone, ConeTerms, spot_factor};
 use crate::field::{Described, Field, FieldPlace, rgb};
 use crate::invalid::{Fields, InvalidValue};
+use crate::light_colors::meaning;
 use crate::range::Range;
 use crate::record::{LightRecord, number};
 

@@ -5,8 +5,8 @@ use crate::cpu;
 use crate::gpu::attachments::{self, Target};
 use crate::gpu::device::Gpu;
 use crate::gpu::draw::meshes::{self as mesh_buffers, MeshBuffers};
-use crate::gpu::draw::pass;
 use crate::gpu::draw::upload::{self, Buffers};
+use crate::gpu::passes::encode;
 use crate::gpu::passes::over;
 use crate::gpu::pipelines::cache::{self, Pipelines};
 use crate::gpu::texture;
@@ -39,8 +39,8 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
         )
             .chain()
             .in_set(Upload),
-        pass::draw.in_set(Draw),
-        pass::present.in_set(Deliver),
+        encode::draw.in_set(Draw),
+        encode::present.in_set(Deliver),
     );
     app.add_systems(
         schedule,

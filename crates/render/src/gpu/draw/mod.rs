@@ -1,9 +1,8 @@
-//! How wgpu draws batches: what draws read is uploaded, and the pass is encoded, submitted and presented.
+//! What draws read on the GPU, uploaded: buffers, images and the environment.
 
 pub(crate) mod flat;
 pub(crate) mod maps;
 pub(crate) mod meshes;
-pub(crate) mod pass;
 pub(crate) mod placings;
 pub(crate) mod surroundings;
 pub(crate) mod upload;

@@ -2,6 +2,7 @@
 //! its color and its depth; a policy passes over the finished picture in passes of its own.
 
 mod blended;
+pub(crate) mod encode;
 mod groups;
 mod opaque;
 pub(crate) mod over;

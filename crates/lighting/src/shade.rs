@@ -1,10 +1,8 @@
 //! The whole equation, from its parts.
 
-use super::Real;
-use super::arrival::{Incidence, Irradiance};
-use super::scene::{Coefficients, Eye, ShadedPoint};
-use super::vector::{add, mul};
 use crate::Reflectance;
+use crate::equations::vector::{add, mul};
+use crate::equations::{Coefficients, Eye, Incidence, Irradiance, Real, ShadedPoint};
 use crate::lights::{Light, LightSource};
 
 /// The terms that one light adds at a point. Their sum is [`light_contribution`].
@@ -19,7 +17,7 @@ pub struct LightTerms<T> {
 }
 
 /// Direction and strength of a light at a point; `None` for light from all around. Where a light is at the point itself
-/// ([`COINCIDENT`](super::COINCIDENT)) l is n and the distance 0.
+/// ([`COINCIDENT`](crate::equations::COINCIDENT)) l is n and the distance 0.
 pub fn incidence<T: Real>(surface: &ShadedPoint<T>, light: &Light<T>) -> Option<Incidence<T>> {
     light.incidence(surface)
 }

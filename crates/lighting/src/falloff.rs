@@ -57,7 +57,7 @@ impl Default for Attenuation {
     }
 }
 
-/// The cone of a [`SpotLight`](super::SpotLight). φ is the angle between the light's direction and the ray to the lit point.
+/// The cone of a [`SpotLight`](crate::SpotLight). φ is the angle between the light's direction and the ray to the lit point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
     /// The half angle in radians beyond which nothing is lit: 0 to π/2, or π for no cone at all, in which case `inner`

@@ -2,10 +2,10 @@
 
 use bevy_color::LinearRgba;
 
-use super::falloff::number;
 use crate::Reflectance;
 use crate::equations::vector::{dot, scale};
 use crate::equations::{Eye, Incidence, Irradiance, Real, ShadedPoint, diffuse_term, rgb, specular_term, view_vector};
+use crate::falloff::number;
 
 /// The meaning of each field of a light, for its documentation and for the schema of scene files.
 macro_rules! meaning {

@@ -1,6 +1,6 @@
 //! Selects the lights of a patch: the one place where a tolerance is spent.
 
-use super::{LitTerms, Receiver, TermBounds};
+use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::Real;
 use crate::equations::vector::add;
 use crate::lights::{Light, LightSource};
@@ -51,7 +51,7 @@ impl<T: Real> Receiver<T> {
 
     /// Fills `selected` with the `lights` that the patch needs, each given with its number, in ascending order. The
     /// terms of the others are left out, the weakest first, as long as the sum of their bounds stays within
-    /// `tolerance`, a linear intensity per channel (see [`linear_tolerance`](super::linear_tolerance)).
+    /// `tolerance`, a linear intensity per channel (see [`linear_tolerance`](crate::bounds::linear_tolerance)).
     ///
     /// The tolerance covers both terms together: no channel of any point changes by more. A term is as weak as its
     /// largest channel in shares of the tolerance, compared in `f32`; of equal ones the smaller number goes first, and

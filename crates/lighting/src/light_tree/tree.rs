@@ -1,6 +1,7 @@
 //! A tree of many lights, which finds those whose range reaches a patch.
 
-use super::{Receiver, Selected};
+use super::Selected;
+use crate::bounds::Receiver;
 use crate::lights::{Light, LightSource};
 
 /// How many boxes are tested together.
