@@ -3,9 +3,7 @@
 use std::f32::consts::{FRAC_PI_4, PI};
 use std::ops::Bound::Excluded;
 
-use bevy_color::LinearRgba;
-use bevy_ecs::component::Component;
-use bevy_transform::components::Transform;
+use crate::LinearRgba;
 
 use crate::equations::{Transcendental, srgb_encoded};
 use crate::invalid::{Fields, InvalidValue};
@@ -17,8 +15,8 @@ use crate::{Intensity, Viewer};
 /// Only the transform's translation and rotation count: eye space has world units whatever the
 /// camera is attached to. A [`Shading`](crate::Shading) or [`Reflectance`](crate::Reflectance) component on the camera
 /// is the view's default; an object's own wins for that object.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[require(Transform)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component), require(bevy_transform::components::Transform))]
 pub struct Camera {
     /// Vertical field of view in radians, in (0, π). Default 45°.
     pub fov_y: f32,

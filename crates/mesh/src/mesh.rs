@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_math::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use thiserror::Error;
 
 use crate::edges::Edges;
@@ -20,7 +20,7 @@ use crate::{Bounds, NormalReport, NormalWeighting, Surface};
 /// A mesh does not change once it is made, and its clones share its data.
 ///
 /// ```
-/// use bevy_math::{Vec2, Vec3};
+/// use glam::{Vec2, Vec3};
 /// use halfway_mesh::Mesh;
 ///
 /// // A square of two triangles, with computed normals and the whole texture.
@@ -52,7 +52,7 @@ struct MeshData {
 /// Why a mesh was refused. Vertices and triangles are numbered from 0.
 ///
 /// ```
-/// use bevy_math::Vec3;
+/// use glam::Vec3;
 /// use halfway_mesh::{Mesh, MeshError};
 ///
 /// let error = Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![0, 1, 3]).unwrap_err();
@@ -206,7 +206,7 @@ impl Mesh {
     /// [`with_normals`](Self::with_normals), which sums them over the triangles.
     ///
     /// ```
-    /// use bevy_math::{Vec2, Vec3};
+    /// use glam::{Vec2, Vec3};
     /// use halfway_mesh::{Mesh, MeshError, Plane};
     ///
     /// // A wave along x: height a·sin(x), normal (−a·cos(x), 1, 0), scaled to unit length.
