@@ -156,7 +156,7 @@ impl Pieces {
                 self.extent = PieceExtent::of(positions.iter().copied());
             },
             || {
-                self.each.par_iter_mut().for_each(|piece| {
+                self.each.par_iter_mut().with_min_len(16).for_each(|piece| {
                     let own = piece.first_vertex as usize..(piece.first_vertex + piece.vertex_count) as usize;
                     let triangles = piece.triangles.start as usize..piece.triangles.end as usize;
                     let corners = &indices.as_chunks::<3>().0[triangles];

@@ -70,6 +70,9 @@ const FINEST: u32 = u32::MAX;
 /// Patches are made anew once they are so many times as large as they were, measured by the mesh.
 const WIDER: f32 = 1.5;
 
+/// So many patches are measured by one thread, at least.
+const FEWEST: usize = 16;
+
 /// So many neighbouring patches are a group.
 const GROUP: usize = 8;
 
@@ -116,7 +119,8 @@ impl Patches {
     /// Patches whose indices begin at `starts`; all but the last, where those of the last patch end.
     fn between(mesh: &Mesh, triangles: &[[u32; 3]], starts: Vec<u32>) -> Self {
         let run = |ends: &[u32]| &triangles[ends[0] as usize / 3..ends[1] as usize / 3];
-        let measured: Vec<_> = starts.par_windows(2).map(|ends| measure(mesh, run(ends))).collect();
+        let measured: Vec<_> =
+            starts.par_windows(2).with_min_len(FEWEST).map(|ends| measure(mesh, run(ends))).collect();
         let (shapes, outlines): (Vec<_>, Vec<_>) = measured.into_iter().unzip();
         let groups = outlines.chunks(GROUP).zip((0..).step_by(GROUP)).map(|(outlines, first)| PatchGroup {
             outline: Outline::around(outlines),

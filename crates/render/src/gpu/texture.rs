@@ -18,7 +18,8 @@ use halfway_lighting::{Camera, Encoding, Samples};
 /// # use bevy_app::App;
 /// # use bevy_math::UVec2;
 /// # use halfway_render::{Gpu, RenderError, TextureTarget, encode_frame, wgpu};
-/// # fn draw(device: wgpu::Device, queue: wgpu::Queue, texture: &wgpu::Texture, app: &mut App) -> Result<(), RenderError> {
+/// # type Texture = wgpu::Texture;
+/// # fn draw(device: wgpu::Device, queue: wgpu::Queue, texture: &Texture, app: &mut App) -> Result<(), RenderError> {
 /// app.insert_resource(Gpu::from_device(device.clone(), queue.clone()));
 /// let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
 /// let size = UVec2::new(texture.width(), texture.height());
@@ -50,10 +51,10 @@ use halfway_lighting::{Camera, Encoding, Samples};
 /// ```
 ///
 /// The depth is the one that bevy draws with: reversed, with an infinite far plane. Under a perspective camera a surface
-/// at the distance z along the view has the depth near/z, `near` being the camera's
-/// [`near`](halfway_lighting::Camera::near): 1 at the near plane, 0 infinitely far away, and the greater depth wins. So
-/// the engine has to draw with the same near plane, the comparison `Greater` or `GreaterEqual`, and, where it begins the
-/// frame, a depth cleared to 0. [`OverView::clip_from_world`](crate::OverView::clip_from_world) is the matrix to use.
+/// at the distance z along the view has the depth near/z, with the distance of the camera's near plane: 1 at that plane,
+/// 0 infinitely far away, and the greater depth wins. So the engine has to draw with the same near plane, the comparison
+/// `Greater` or `GreaterEqual`, and, where it begins the frame, a depth cleared to 0.
+/// [`OverView::clip_from_world`](crate::OverView::clip_from_world) is the matrix to use.
 ///
 /// These do not go together, and are [`RenderError::BadTarget`] with what to change: [`Load::Keep`] and four samples a
 /// pixel, since the texture has one; a depth with another number of samples than the camera's; a policy of

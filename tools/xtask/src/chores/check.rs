@@ -149,3 +149,18 @@ fn without_wgpu(root: &std::path::Path) -> Result {
     let found = tree.lines().find(|line| ["wgpu", "naga", "winit"].iter().any(|name| line.starts_with(name)));
     found.map_or(Ok(()), |line| Err(Failure::new(format!("halfway without its features depends on {line}"))))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_without_the_ecs_have_few_crates() {
+        for part in PARTS {
+            part.has_few_crates().unwrap();
+        }
+        let refused = Part { most_crates: 5, ..PARTS[0] }.has_few_crates().unwrap_err().to_string();
+        assert!(refused.starts_with("halfway_lighting consists of 12 crates; at most 5 are expected:\n"), "{refused}");
+        assert!(refused.contains("\n    glam v0."), "{refused}");
+    }
+}
