@@ -47,7 +47,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
-    let camera = Camera { fov_y: FIELD_OF_VIEW, near: NEAR, ..Camera::default() };
+    let projection = Projection::Perspective { fov_y: FIELD_OF_VIEW, near: NEAR };
+    let camera = Camera { projection, ..Camera::default() };
     commands.spawn((camera, Transform::from_translation(EYE).looking_at(AT, Vec3::Y)));
     commands.spawn((Mesh3d(meshes.add(Teapot::new(16))), Material::BRASS, Shading::Phong));
     commands.spawn((PointLight::white(), Transform::from_xyz(2.0, 5.0, 3.0)));

@@ -22,7 +22,7 @@ struct Sheet(Handle<Mesh>);
 
 fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
     commands.spawn((
-        Camera { fov_y: 0.6, ..Camera::default() },
+        Camera::perspective(0.6),
         Transform::from_xyz(4.5, 4.0, 6.5).looking_at(Vec3::new(0.0, -0.3, 0.0), Vec3::Y),
     ));
     commands.spawn((PointLight::white(), Transform::from_xyz(-2.0, 4.0, -1.0)));

@@ -287,7 +287,7 @@ fn an_engine_s_triangle_hides_what_is_behind_it_and_is_hidden() {
     let depth = depth_texture(&gpu, wgpu::TextureFormat::Depth32Float, 1);
     let target = TextureTarget { load: Load::Keep, depth: Some(depth.clone()), ..target };
     stage.world().insert_resource(target.clone());
-    let near = sphere().camera.near;
+    let near = sphere().camera.projection.near();
     // The distance of the triangle from the eye, whether it is drawn before the frame, and whether it hides the sphere.
     for (distance, before, hides) in [(2.0, true, true), (6.0, true, false), (2.0, false, true), (6.0, false, false)] {
         assert_eq!(stage.frame().errors, []);

@@ -54,7 +54,8 @@ use halfway_lighting::{Camera, Encoding, Samples};
 /// at the distance z along the view has the depth near/z, with the distance of the camera's near plane: 1 at that plane,
 /// 0 infinitely far away, and the greater depth wins. So the engine has to draw with the same near plane, the comparison
 /// `Greater` or `GreaterEqual`, and, where it begins the frame, a depth cleared to 0.
-/// [`OverView::clip_from_world`](crate::OverView::clip_from_world) is the matrix to use.
+/// [`OverView::clip_from_world`](crate::OverView::clip_from_world) is the matrix to use. An orthographic camera needs its
+/// far plane for that: without one, depth spans the visible objects.
 ///
 /// These do not go together, and are [`RenderError::BadTarget`] with what to change: [`Load::Keep`] and four samples a
 /// pixel, since the texture has one; a depth with another number of samples than the camera's; a policy of
