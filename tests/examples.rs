@@ -269,6 +269,32 @@ fn lines_pass() {
 }
 
 #[test]
+fn engine_scene() {
+    // The engine has a device, so that there is none on the CPU.
+    if std::env::var("HALFWAY_ADAPTER").is_ok_and(|name| name.starts_with("cpu")) {
+        return;
+    }
+    let file = folder("engine_scene").join("engine_scene.png");
+    draw("engine_scene", &file, &[]);
+    let picture = picture(&file);
+    let is_blue = |pixel: &image::Rgb<u8>| pixel.0[2] > pixel.0[0] && pixel.0[2] > 110;
+    let is_brass = |pixel: &image::Rgb<u8>| u32::from(pixel.0[0]) > 40 + u32::from(pixel.0[2]);
+    let count = |is: &dyn Fn(&image::Rgb<u8>) -> bool| picture.pixels().filter(|pixel| is(pixel)).count();
+    assert!(count(&is_blue) > 300 && count(&is_brass) > 500, "{} {}", count(&is_blue), count(&is_brass));
+    // In the middle column the teapot hides the pillar behind it, and the one before it hides the teapot.
+    let column: Vec<_> = (0..SIZE.1).map(|y| *picture.get_pixel(SIZE.0 / 2, y)).collect();
+    let last_brass = column.iter().rposition(is_brass).expect("the teapot shows");
+    assert!(column[last_brass..].iter().filter(|pixel| is_blue(pixel)).count() > 3, "no pillar is before the teapot");
+}
+
+#[test]
+fn waves() {
+    let file = folder("waves").join("waves.png");
+    draw("waves", &file, &["--frames", "3"]);
+    picture(&file);
+}
+
+#[test]
 fn soak() {
     let run = |more: &[&str]| {
         let mut command = Command::new(binary("soak"));

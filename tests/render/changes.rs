@@ -40,6 +40,63 @@ fn a_mesh_that_is_replaced_shows_at_once() {
     }
 }
 
+/// A sheet of 8192 triangles, which is cut into patches, at a time.
+fn sheet(time: f32) -> (Vec<Vec3>, Vec<Vec3>) {
+    let flat = Mesh::from(Plane { size: 3.0, divisions: 64 });
+    let wave = |p: &Vec3| {
+        let slope = 0.6 * (2.0 * p.x + time).cos();
+        (p.with_y(0.3 * (2.0 * p.x + time).sin()), Vec3::new(-slope, 1.0, 0.0))
+    };
+    flat.positions().iter().map(wave).unzip()
+}
+
+#[test]
+fn a_mesh_that_moves_is_drawn_as_one_that_is_made_anew() {
+    let flat = Mesh::from(Plane { size: 3.0, divisions: 64 });
+    let colors: Vec<_> =
+        flat.positions().iter().map(|p| Vec4::new(p.x.abs() / 1.5, 0.5, p.z.abs() / 1.5, 1.0)).collect();
+    let view = |thing: Thing, lights: u8| {
+        let mut scene = Scene::seen_from(Vec3::new(0.0, 2.5, 3.5), Vec3::ZERO).ambient(0.1).with(thing);
+        for i in 0..lights {
+            scene =
+                scene.lit(Lamp::point(point_light(), Vec3::new(f32::from(i % 5) - 2.0, 1.0, f32::from(i / 5) - 2.0)));
+        }
+        scene
+    };
+    let rows: [(&str, fn(Thing) -> Thing, u8, bool); 6] = [
+        ("flat", |thing| thing.shaded(Shading::Flat), 2, false),
+        ("gouraud", |thing| thing.shaded(Shading::Gouraud), 2, false),
+        ("phong", |thing| thing, 2, false),
+        ("colored", |thing| thing, 2, true),
+        ("lists of lights", |thing| thing.faces(Faces::Both), 20, false),
+        ("blended", |thing| thing.blended(0.5), 2, false),
+    ];
+    for (row, look, lights, colored) in rows {
+        let (mut stage, mut fresh) = (Stage::new(48, 32), Stage::new(48, 32));
+        let paint = |mesh: Mesh| {
+            let colors = colored.then(|| colors.clone());
+            colors.map_or(Ok(mesh.clone()), |colors| mesh.with_colors(colors)).expect("a color a vertex")
+        };
+        let first = paint(flat.clone());
+        stage.draw_bytes(&view(look(Thing::new(first.clone()).of(material())), lights));
+        let handle = stage.handle(&first);
+        for frame in 1..=4_u8 {
+            let (positions, normals) = sheet(0.7 * f32::from(frame));
+            let mut meshes = stage.world().resource_mut::<Assets<Mesh>>();
+            let mesh = meshes.get_mut(&handle).expect("it is there");
+            mesh.set_positions(positions.clone()).expect("as many");
+            mesh.set_normals(normals.clone()).expect("as many");
+            let moved = stage.bytes();
+            let indices = flat.indices().to_vec();
+            let anew = paint(Mesh::from_parts(positions, Some(normals), None, indices).expect("a sound mesh"));
+            let expected = fresh.draw_bytes(&view(look(Thing::new(anew).of(material())), lights));
+            assert!(expected == moved, "{row}, frame {frame}: another picture");
+        }
+        stage.bytes();
+        assert_eq!(stage.report().bytes_uploaded, 0, "{row}: uploaded again");
+    }
+}
+
 #[test]
 fn a_mesh_that_is_removed_is_missed_until_it_is_back() {
     let mut stage = Stage::new(24, 24);

@@ -127,7 +127,7 @@ fn a_device_s_texture_is_not_the_cpu_s_to_draw_into() {
         view_formats: &[],
     });
     let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-    stage.world().insert_resource(TextureTarget { view, format: texture.format(), size: UVec2::splat(8) });
+    stage.world().insert_resource(TextureTarget::new(view, texture.format(), UVec2::splat(8)));
     let error = stage.frame().errors.first().expect("it is said").to_string();
     assert!(error.contains("Rgba8UnormSrgb") && error.contains("expected a `Gpu`"), "{error}");
 }

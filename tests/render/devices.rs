@@ -36,13 +36,14 @@ fn is_loss<T>(result: &Result<T, RenderError>) -> bool {
 #[test]
 fn what_comes_after_an_image_that_is_too_large_is_drawn() {
     let mut gpu = Gpu::open_headless().expect("an adapter");
-    let limits = wgpu::Limits { max_texture_dimension_2d: 64, ..gpu.adapter.limits() };
+    let adapter = gpu.adapter.clone().expect("a device of its own has one");
+    let limits = wgpu::Limits { max_texture_dimension_2d: 64, ..adapter.limits() };
     let descriptor = wgpu::DeviceDescriptor {
         required_limits: limits,
         required_features: gpu.device.features(),
         ..Default::default()
     };
-    (gpu.device, gpu.queue) = block_on(gpu.adapter.request_device(&descriptor)).expect("a small device");
+    (gpu.device, gpu.queue) = block_on(adapter.request_device(&descriptor)).expect("a small device");
     let mut stage = Stage::new(32, 24);
     stage.app.insert_resource(gpu);
     let square = |x: f32, side: u32, image: [f32; 4]| {

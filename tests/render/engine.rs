@@ -3,9 +3,10 @@
 use crate::render::compare::assert_identical;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
+use bevy_math::URect;
 use futures_lite::future::block_on;
 use halfway::prelude::*;
-use halfway::render::{Gpu, GpuTimer, Pixels, RenderError, TextureTarget, encode_frame, wgpu};
+use halfway::render::{Gpu, GpuTimer, Load, Pixels, RenderError, TextureTarget, encode_frame, wgpu};
 #[cfg(target_os = "linux")]
 use std::process::Command;
 use std::sync::{Arc, Mutex};
@@ -33,13 +34,11 @@ fn with_blended(scene: Scene) -> Scene {
 
 /// A device with no optional feature and the smallest limits, as an engine may open it. Errors outside of a call panic.
 fn plain_device() -> Gpu {
-    let Gpu { instance, adapter, .. } = Gpu::open_headless().expect("an adapter");
-    let (device, queue) = {
-        let request = adapter
-            .request_device(&wgpu::DeviceDescriptor { required_limits: wgpu::Limits::default(), ..Default::default() });
-        block_on(request).expect("every adapter has the defaults")
-    };
-    Gpu::from_existing(instance, adapter, device, queue)
+    let adapter = Gpu::open_headless().expect("an adapter").adapter.expect("a device of its own has one");
+    let request = adapter
+        .request_device(&wgpu::DeviceDescriptor { required_limits: wgpu::Limits::default(), ..Default::default() });
+    let (device, queue) = block_on(request).expect("every adapter has the defaults");
+    Gpu::from_device(device, queue)
 }
 
 /// A texture of the engine's, in two levels, and the second of these as the target.
@@ -59,7 +58,7 @@ fn texture(gpu: &Gpu, format: wgpu::TextureFormat) -> (wgpu::Texture, TextureTar
         mip_level_count: Some(1),
         ..Default::default()
     });
-    (texture, TextureTarget { view, format, size: SIZE })
+    (texture, TextureTarget::new(view, format, SIZE))
 }
 
 /// The texels of the second level.
@@ -185,6 +184,201 @@ fn what_does_not_go_into_a_texture_is_said() {
     let (_, target) = texture(&gpu, Rgba8Unorm);
     stage.world().insert_resource(TextureTarget { size: SIZE + 1, ..target });
     assert!(matches!(&stage.frame().errors[..], [RenderError::BadTarget { reason, .. }] if reason.contains("size")));
+}
+
+/// A depth texture of the target's size.
+fn depth_texture(gpu: &Gpu, format: wgpu::TextureFormat, samples: u32) -> wgpu::TextureView {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("the engine's depth"),
+        size: wgpu::Extent3d { width: SIZE.x, height: SIZE.y, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: samples,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// Draws a red triangle over all of a texture, at one depth, where nothing nearer is; on blue where the engine begins.
+fn draw_triangle(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    (color, depth): (&wgpu::TextureView, &wgpu::TextureView),
+    (at, begins): (f32, bool),
+) {
+    let text = format!(
+        "@vertex fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {{
+            return vec4f(4.0 * f32(i & 1u) - 1.0, 4.0 * f32(i >> 1u) - 1.0, {at:?}, 1.0);
+        }}
+        @fragment fn fragment() -> @location(0) vec4f {{ return vec4f(1.0, 0.0, 0.0, 1.0); }}"
+    );
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(text.into()),
+    });
+    let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: wgpu::TextureFormat::Depth32Float,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(wgpu::TextureFormat::Rgba8Unorm.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    });
+    let color_load = if begins { wgpu::LoadOp::Clear(wgpu::Color::BLUE) } else { wgpu::LoadOp::Load };
+    let depth_load = if begins { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load };
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: color,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: color_load, store: wgpu::StoreOp::Store },
+        })],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: depth,
+            depth_ops: Some(wgpu::Operations { load: depth_load, store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    });
+    pass.set_pipeline(&pipeline);
+    pass.draw(0..3, 0..1);
+}
+
+const RED: [u8; 4] = [255, 0, 0, 255];
+const BLUE: [u8; 4] = [0, 0, 255, 255];
+
+/// A sphere 4 units before the eye.
+fn sphere() -> Scene {
+    let mut scene = Scene::seen_from(Vec3::Z * 4.0, Vec3::ZERO).ambient(0.1);
+    scene.camera.encoding = Encoding::Raw;
+    scene.with(Thing::new(UvSphere::new(1.0, 24, 12)).of(material())).lit(Lamp::point(point_light(), Vec3::splat(3.0)))
+}
+
+#[test]
+fn an_engine_s_triangle_hides_what_is_behind_it_and_is_hidden() {
+    let gpu = plain_device();
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    stage.world().insert_resource(gpu.clone());
+    let alone = stage.draw_bytes(&sphere());
+    let shows = |pixel: &image::Rgba<u8>| pixel.0 != [0, 0, 0, 255];
+    assert!(alone.pixels().filter(|pixel| shows(pixel)).count() > 30);
+    let (color, target) = texture(&gpu, wgpu::TextureFormat::Rgba8Unorm);
+    let depth = depth_texture(&gpu, wgpu::TextureFormat::Depth32Float, 1);
+    let target = TextureTarget { load: Load::Keep, depth: Some(depth.clone()), ..target };
+    stage.world().insert_resource(target.clone());
+    let near = sphere().camera.projection.near();
+    // The distance of the triangle from the eye, whether it is drawn before the frame, and whether it hides the sphere.
+    for (distance, before, hides) in [(2.0, true, true), (6.0, true, false), (2.0, false, true), (6.0, false, false)] {
+        assert_eq!(stage.frame().errors, []);
+        let mut encoder = encoder(&gpu);
+        // At depth 0 it is nowhere nearer than what is cleared: the texture becomes blue.
+        draw_triangle(&gpu, &mut encoder, (&target.view, &depth), (0.0, true));
+        if before {
+            draw_triangle(&gpu, &mut encoder, (&target.view, &depth), (near / distance, false));
+        }
+        encode_frame(stage.app.world(), &mut encoder).expect("a frame");
+        if !before {
+            draw_triangle(&gpu, &mut encoder, (&target.view, &depth), (near / distance, false));
+        }
+        let bytes = read(&gpu, &color, encoder);
+        for (drawn, alone) in bytes.chunks_exact(4).zip(alone.pixels()) {
+            let expected = if hides || !shows(alone) { RED } else { alone.0 };
+            assert_eq!(drawn, expected, "{distance} units away, before the frame: {before}");
+        }
+    }
+}
+
+#[test]
+fn a_viewport_holds_the_frame_and_leaves_the_rest() {
+    let gpu = plain_device();
+    let viewport = URect::new(9, 2, 21, 10);
+    let mut stage = Stage::new(viewport.width(), viewport.height());
+    stage.world().insert_resource(gpu.clone());
+    let alone = stage.draw_bytes(&sphere());
+    let (color, target) = texture(&gpu, wgpu::TextureFormat::Rgba8Unorm);
+    let depth = depth_texture(&gpu, wgpu::TextureFormat::Depth32Float, 1);
+    for (load, own_depth) in [(Load::Keep, true), (Load::Keep, false), (Load::Clear, true), (Load::Clear, false)] {
+        let own = (!own_depth).then(|| depth.clone());
+        stage.world().insert_resource(TextureTarget { load, viewport: Some(viewport), depth: own, ..target.clone() });
+        assert_eq!(stage.frame().errors, []);
+        let mut encoder = encoder(&gpu);
+        // At depth 0 it is nowhere nearer than what is cleared: the texture becomes blue.
+        draw_triangle(&gpu, &mut encoder, (&target.view, &depth), (0.0, true));
+        encode_frame(stage.app.world(), &mut encoder).expect("a frame");
+        let bytes = read(&gpu, &color, encoder);
+        for (at, drawn) in bytes.chunks_exact(4).enumerate() {
+            let at = UVec2::new(at as u32 % SIZE.x, at as u32 / SIZE.x);
+            let is_in = at.cmpge(viewport.min).all() && at.cmplt(viewport.max).all();
+            let inside = is_in.then(|| (at - viewport.min).to_array()).map(|[x, y]| alone.get_pixel(x, y).0);
+            let around = if load == Load::Keep { BLUE } else { [0, 0, 0, 255] };
+            let expected = inside.filter(|pixel| *pixel != [0, 0, 0, 255]).unwrap_or(around);
+            assert_eq!(drawn, expected, "{at}, {load:?}, a depth of its own: {own_depth}");
+        }
+    }
+}
+
+#[test]
+fn what_does_not_go_together_in_a_target_is_said() {
+    let gpu = plain_device();
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    stage.world().insert_resource(gpu.clone());
+    let (_, whole) = texture(&gpu, wgpu::TextureFormat::Rgba8Unorm);
+    let keeps = TextureTarget { load: Load::Keep, ..whole.clone() };
+    let part = TextureTarget { viewport: Some(URect::new(0, 0, 8, 8)), ..whole.clone() };
+    let beyond = TextureTarget { viewport: Some(URect::new(20, 0, 28, 8)), ..whole.clone() };
+    let with_depth = |format, samples| {
+        let depth = Some(depth_texture(&gpu, format, samples));
+        TextureTarget { depth, ..whole.clone() }
+    };
+    let depth = |samples| with_depth(wgpu::TextureFormat::Depth32Float, samples);
+    let (one, four) = (Samples::One, Samples::Four);
+    let (clamp, reinhard) = (Intensity::Clamp, Intensity::Reinhard { white: 1.0 });
+    let rows = [
+        (keeps.clone(), four, clamp, Some("expected `Samples::One` or `Load::Clear`")),
+        (keeps.clone(), one, reinhard, Some("expected `Intensity::Clamp`")),
+        (keeps, one, clamp, None),
+        (part.clone(), one, reinhard, Some("expected `Intensity::Clamp`")),
+        (part, four, clamp, None),
+        (beyond, one, clamp, Some("beyond its size")),
+        (depth(1), four, clamp, Some("expected `Samples::One`")),
+        (depth(4), one, clamp, Some("expected `Samples::Four`")),
+        (depth(4), four, clamp, None),
+        (depth(1), one, reinhard, None),
+        (with_depth(wgpu::TextureFormat::Depth24Plus, 1), one, clamp, Some("Depth32Float")),
+    ];
+    for (number, (target, samples, intensity, problem)) in rows.into_iter().enumerate() {
+        let mut scene = sphere();
+        (scene.camera.samples, scene.camera.intensity) = (samples, intensity);
+        stage.set(&scene);
+        stage.world().insert_resource(target);
+        let errors = stage.frame().errors.clone();
+        match (problem, &errors[..]) {
+            (None, []) => {}
+            (Some(problem), [RenderError::BadTarget { reason, .. }]) if reason.contains(problem) => {}
+            _ => panic!("row {number}: {errors:?}, expected {problem:?}"),
+        }
+    }
 }
 
 /// The device's callbacks are the engine's, so that it hears of the loss by them; the frame says what it cannot do.

@@ -13,8 +13,9 @@ const BRIGHT: f32 = 100_000.25;
 /// of 32-bit floats.
 fn plain_device() -> Gpu {
     let mut gpu = Gpu::open_headless().expect("an adapter");
-    let descriptor = wgpu::DeviceDescriptor { required_limits: gpu.adapter.limits(), ..Default::default() };
-    (gpu.device, gpu.queue) = block_on(gpu.adapter.request_device(&descriptor)).expect("a plain device");
+    let adapter = gpu.adapter.clone().expect("a device of its own has one");
+    let descriptor = wgpu::DeviceDescriptor { required_limits: adapter.limits(), ..Default::default() };
+    (gpu.device, gpu.queue) = block_on(adapter.request_device(&descriptor)).expect("a plain device");
     gpu
 }
 

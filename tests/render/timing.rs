@@ -85,7 +85,15 @@ fn the_gpu_is_timed_where_it_can_be_and_is_asked_to() {
     stage.frame();
     assert!(!stage.app.world().contains_resource::<GpuTimer>(), "nobody asked");
     stage.world().init_resource::<GpuTimer>();
-    let can = stage.app.world().resource::<Gpu>().adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+    let can = stage
+        .app
+        .world()
+        .resource::<Gpu>()
+        .adapter
+        .as_ref()
+        .expect("an adapter")
+        .features()
+        .contains(wgpu::Features::TIMESTAMP_QUERY);
     for frame in 0..20 {
         // Reading the picture waits for the GPU, so that the time of every frame has arrived by the next but one.
         stage.float();

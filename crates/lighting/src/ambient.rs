@@ -1,7 +1,6 @@
 //! The ambient light of a scene.
 
-use bevy_color::LinearRgba;
-use bevy_ecs::resource::Resource;
+use crate::LinearRgba;
 
 use crate::equations::{Real, rgb};
 use crate::invalid::{Fields, InvalidValue};
@@ -9,7 +8,8 @@ use crate::invalid::{Fields, InvalidValue};
 /// Ga: ambient light that no light source brings. Every material reflects it by its ambient colour.
 ///
 /// Linear RGB, 0 to 10¹²; alpha is ignored. Default 0.1 grey.
-#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::resource::Resource))]
 pub struct GlobalAmbient(pub LinearRgba);
 
 impl GlobalAmbient {

@@ -1,10 +1,6 @@
 //! The camera: what a view looks through and how its picture is written.
 
-use bevy_color::LinearRgba;
-use bevy_ecs::component::Component;
-use bevy_math::Vec3;
-use bevy_transform::components::Transform;
-
+use crate::LinearRgba;
 use crate::equations::vector::Real;
 use crate::equations::{Eye, Transcendental, srgb_encoded};
 use crate::invalid::{Fields, InvalidValue};
@@ -17,7 +13,7 @@ use crate::{Intensity, Projection, Viewer};
 /// is the view's default; an object's own wins for that object.
 ///
 /// ```
-/// use bevy_math::Vec3;
+/// use glam::Vec3;
 /// use halfway_lighting::{Camera, Projection, Samples};
 ///
 /// // From above right, a ball of radius 2 about the origin fills the picture: a bundle to spawn.
@@ -30,8 +26,8 @@ use crate::{Intensity, Projection, Viewer};
 /// assert!(matches!(plan.projection, Projection::Orthographic { height: 4.0, .. }));
 /// # assert_eq!(camera, Camera::default());
 /// ```
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[require(Transform)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component), require(bevy_transform::components::Transform))]
 pub struct Camera {
     /// How eye space falls onto the picture. Default: a perspective of 45° with its near plane at 0.1.
     pub projection: Projection,
@@ -136,7 +132,15 @@ impl Camera {
     /// A perspective keeps its field of view and stands as near as it may; its near plane comes closer where the sphere
     /// would be cut. An orthographic projection takes the height of the sphere. +Y is up in the picture, or −Z if the
     /// camera looks straight down, +Z if straight up. A `direction` of length 0 counts as −Z, a radius of 0 as 1.
-    pub fn framing(self, (center, radius): (Vec3, f32), direction: Vec3) -> (Self, Transform) {
+    #[cfg(feature = "ecs")]
+    pub fn framing(
+        self,
+        (center, radius): (glam::Vec3, f32),
+        direction: glam::Vec3,
+    ) -> (Self, bevy_transform::components::Transform) {
+        use bevy_transform::components::Transform;
+        use glam::Vec3;
+
         let radius = if radius > 0.0 { radius } else { 1.0 };
         let direction = direction.normalize_or(Vec3::NEG_Z);
         let (distance, projection) = self.projection.framing(radius);

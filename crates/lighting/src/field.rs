@@ -2,7 +2,7 @@
 //!
 //! `validate()` runs over the table, and so do the readers and writers of files and the schema that describes them.
 
-use bevy_color::LinearRgba;
+use crate::LinearRgba;
 
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;

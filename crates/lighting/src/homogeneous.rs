@@ -1,10 +1,9 @@
 //! Light positions in homogeneous coordinates: w = 0 is a direction, any other w a point.
 
-use bevy_math::{Vec3, Vec4};
-use bevy_transform::components::Transform;
+use glam::{Vec3, Vec4};
 
+use crate::direction::direction;
 use crate::invalid::{Fields, InvalidValue, Problem};
-use crate::place::{direction, rotation_along};
 
 /// Where a light with a homogeneous position is, as `GL_POSITION` of OpenGL has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,9 +42,13 @@ impl TryFrom<Vec4> for LightPlace {
     }
 }
 
+#[cfg(feature = "ecs")]
 impl LightPlace {
     /// The transform of an entity whose light is to be here: at the point, or shining away from the direction.
-    pub fn transform(self) -> Transform {
+    pub fn transform(self) -> bevy_transform::components::Transform {
+        use crate::direction::rotation_along;
+        use bevy_transform::components::Transform;
+
         match self {
             Self::Point(point) => Transform::from_translation(point),
             // A `Directional` from outside may hold 0; then there is nothing to turn to.

@@ -1,6 +1,6 @@
 //! Refused values, and their messages.
 
-use bevy_color::LinearRgba;
+use crate::LinearRgba;
 use thiserror::Error;
 
 use crate::frequency::Frequency;

@@ -19,7 +19,7 @@
 //! | sky, ground | colours of a light from all around, which adds kd·lerp(ground, sky, (1 + n·d)/2), d toward the sky | ≥ 0 | [`HemisphereLight`] |
 //! | v | local viewer: toward the eye; infinite viewer: (0, 0, 1) in eye space; orthographic camera: v = +Z in eye space at every point | | [`Viewer`], [`Projection`] |
 //!
-//! All vectors have unit length, all colours are linear RGB (a [`LinearRgba`](bevy_color::LinearRgba) whose alpha is
+//! All vectors have unit length, all colours are linear RGB (a [`LinearRgba`] whose alpha is
 //! ignored), angles are in radians. Sources: Phong 1975 and Blinn 1977 for S, OpenGL 2.1 §2.14.1 for the sum, the
 //! falloff and the cone, `KHR_lights_punctual` for range and inner cone. Shading is local: no shadows, no
 //! interreflection.
@@ -43,6 +43,11 @@
 //!
 //! No GPU, no window, no file is touched.
 //!
+//! # Features
+//! `ecs`, on by default, makes components and resources of these types and adds what reads a world: [`LightingPlugin`],
+//! [`lights::LightQueries`], [`Shown`], [`propagation`], and places by `GlobalTransform`. Without it they are plain types
+//! and functions, [`LinearRgba`] is a plain struct of the same fields, and the crate depends on nothing of bevy's.
+//!
 //! # A shaded point
 //! ```
 //! use halfway_lighting::equations::{Coefficients, Eye, ShadedPoint, shade};
@@ -63,6 +68,9 @@
 mod ambient;
 pub mod bounds;
 mod camera;
+#[cfg(not(feature = "ecs"))]
+mod color;
+mod direction;
 pub mod equations;
 mod falloff;
 mod field;
@@ -75,21 +83,31 @@ mod light_tree;
 pub mod lights;
 mod matched;
 mod material;
+#[cfg(feature = "ecs")]
 mod place;
+#[cfg(feature = "ecs")]
 mod plugin;
 mod presets;
 mod projection;
+#[cfg(feature = "ecs")]
 mod propagation;
 mod range;
 pub mod record;
 mod shade;
 mod shading;
+#[cfg(feature = "ecs")]
+mod shown;
 mod tolerance;
 mod vertex_colors;
 mod visibility;
 
 pub use ambient::GlobalAmbient;
+#[cfg(feature = "ecs")]
+pub use bevy_color::LinearRgba;
 pub use camera::{Camera, Encoding, Samples};
+#[cfg(not(feature = "ecs"))]
+pub use color::LinearRgba;
+pub use direction::rotation_along;
 pub use field::{Described, Field, FieldPlace, FieldValue};
 pub use frequency::Frequency;
 pub use intensity::Intensity;
@@ -97,12 +115,17 @@ pub use invalid::{Fields, InvalidValue, Problem};
 pub use lights::{Attenuation, Cone, DirectionalLight, HemisphereLight, LightComponent, PointLight, SpotLight};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
-pub use place::{light_direction, light_position, light_up, rotation_along};
+#[cfg(feature = "ecs")]
+pub use place::{light_direction, light_position, light_up};
+#[cfg(feature = "ecs")]
 pub use plugin::LightingPlugin;
 pub use projection::{DepthSpan, Lens, LensTerms, Projection, ViewRay};
+#[cfg(feature = "ecs")]
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
 pub use shading::{Blend, Faces, Mask, Reflectance, Shading, Terms, Viewer};
+#[cfg(feature = "ecs")]
+pub use shown::Shown;
 pub use tolerance::{Tolerance, ViewTolerance};
 pub use vertex_colors::VertexColors;
-pub use visibility::{Shown, Visibility};
+pub use visibility::Visibility;

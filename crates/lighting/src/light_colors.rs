@@ -1,6 +1,6 @@
 //! The colours that lights with a direction share, and what they make of them where they arrive.
 
-use bevy_color::LinearRgba;
+use crate::LinearRgba;
 
 use crate::Reflectance;
 use crate::equations::vector::{dot, scale};

@@ -1,7 +1,6 @@
 //! Materials: how a surface reflects light.
 
-use bevy_color::LinearRgba;
-use bevy_ecs::component::Component;
+use crate::LinearRgba;
 use bytemuck::NoUninit;
 
 use crate::field::{self, Described, Field, rgb};
@@ -34,7 +33,8 @@ macro_rules! meaning {
 ///
 /// A plain value without padding (its bytes can be hashed); equal materials may share one record on the GPU. Named
 /// materials are in [`Material::PRESETS`].
-#[derive(Component, Clone, Copy, Debug, PartialEq, NoUninit)]
+#[derive(Clone, Copy, Debug, PartialEq, NoUninit)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 #[repr(C)]
 pub struct Material {
     #[doc = meaning!(ambient)]
@@ -151,7 +151,8 @@ impl Default for Material {
 /// The material of back faces, where they are drawn ([`crate::Faces`]) and differ from the front.
 ///
 /// Without it back faces take the entity's [`Material`].
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub struct BackMaterial(pub Material);
 
 impl BackMaterial {

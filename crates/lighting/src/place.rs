@@ -1,9 +1,9 @@
-//! From an entity's transform to a light's place and back.
+//! From an entity's transform to a light's place.
 
-use bevy_math::{Quat, Vec3};
 use bevy_transform::components::GlobalTransform;
+use glam::Vec3;
 
-use crate::equations::vector::normalize;
+use crate::direction::direction;
 use crate::invalid::{Fields, InvalidValue, Problem};
 use crate::lights::LightFrame;
 
@@ -49,22 +49,4 @@ impl LightFrame for GlobalTransform {
     fn up(&self) -> Result<[f64; 3], InvalidValue> {
         light_up(self).map(|direction| direction.as_dvec3().to_array())
     }
-}
-
-/// The rotation that makes a light shine along `direction`: it turns −Z there by the shortest way.
-///
-/// The direction needs no unit length.
-///
-/// # Errors
-/// The direction is 0 or not finite.
-pub fn rotation_along(along: Vec3) -> Result<Quat, InvalidValue> {
-    let along = direction(along, "Light", "direction")?;
-    Ok(Quat::from_rotation_arc(Vec3::NEG_Z, along))
-}
-
-/// The unit vector along `value`, whatever its magnitude; glam's own normalisation underflows at 10⁻²³.
-pub(crate) fn direction(value: Vec3, owner: &'static str, field: &str) -> Result<Vec3, InvalidValue> {
-    normalize(value.to_array())
-        .map(Vec3::from_array)
-        .ok_or_else(|| Fields::of(owner).error(field, Problem::NoDirection { value: value.to_array() }))
 }

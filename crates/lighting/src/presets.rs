@@ -1,6 +1,6 @@
 //! Textbook materials by name.
 
-use bevy_color::LinearRgba;
+use crate::LinearRgba;
 
 use crate::Material;
 

@@ -133,6 +133,7 @@ impl Projection {
 
     /// How far from its centre, along the view, a camera stands that shows a sphere of this radius as large as it can
     /// in a picture no higher than wide; and the projection that it takes there.
+    #[cfg(feature = "ecs")]
     pub(crate) fn framing(self, radius: f32) -> (f32, Self) {
         match self {
             Self::Perspective { fov_y, near } => {

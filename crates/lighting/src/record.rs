@@ -3,8 +3,8 @@
 //!
 //! All numbers are finite: whatever leaves the range of f32 becomes the largest number in it.
 
-use bevy_math::{Affine3A, Mat3, Vec3, Vec3A};
 use bytemuck::{Pod, Zeroable};
+use glam::{Affine3A, Mat3, Vec3, Vec3A};
 
 use crate::equations::{Coefficients, specular_exponent};
 use crate::lights::Light;

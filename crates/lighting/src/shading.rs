@@ -1,14 +1,13 @@
 //! How often a surface is shaded, by which reflectance, and on which side.
 
-use bevy_ecs::component::Component;
-
 use crate::frequency::Frequency;
 use crate::invalid::{Fields, InvalidValue, Problem};
 
 /// The shading frequency: where the equation is evaluated.
 ///
 /// On an object it wins over the one on the camera.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 #[non_exhaustive]
 pub enum Shading {
     /// One colour a triangle, at its centroid and with its geometric normal turned to the side seen.
@@ -26,7 +25,8 @@ pub enum Shading {
 /// Flat is `Triangle` for both, Gouraud `Vertex`, Phong `Fragment` (`Terms::from(shading)`). The hybrid that keeps
 /// highlights sharp and spares the rest is `Terms { diffuse: Vertex, specular: Fragment }`. Emission and ambient are
 /// always there; an ambient colour that attenuates goes with the diffuse term.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub struct Terms {
     /// Frequency of kd·Ld·max(n·l, 0).
     pub diffuse: Frequency,
@@ -83,7 +83,8 @@ impl From<Shading> for Terms {
 /// The specular term: how a highlight falls off.
 ///
 /// On an object it wins over the one on the camera.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub enum Reflectance {
     /// Phong 1975: `max(r·v, 0)^α`, r the reflected light direction and α the material's shininess.
     Phong,
@@ -96,7 +97,8 @@ pub enum Reflectance {
 }
 
 /// Which sides of a surface are drawn. Front faces wind counter-clockwise, also under a mirroring transform.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub enum Faces {
     /// Front faces; back faces are culled.
     #[default]
@@ -122,7 +124,8 @@ impl Faces {
 /// Marks a surface as blended: drawn after the opaque ones, sorted back to front, by its material's opacity.
 ///
 /// Without it a surface is opaque whatever its opacity says.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub struct Blend;
 
 /// Marks a surface as cut out: it is not there where its opacity is below this number, and there as a whole elsewhere,
@@ -130,7 +133,8 @@ pub struct Blend;
 ///
 /// The opacity is the material's, times that of the vertices' colours and of images, where there are any. A finite
 /// number, 0 or more; 0 cuts nothing away. The default is 0.5, as in glTF 2.0 (§3.9.4).
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub struct Mask(pub f32);
 
 impl Default for Mask {

@@ -1,8 +1,5 @@
 //! How far a picture may differ from the exact one.
 
-use bevy_ecs::component::Component;
-use bevy_ecs::resource::Resource;
-
 use crate::field::{Described, Field, validate};
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
@@ -29,7 +26,8 @@ macro_rules! meaning {
 /// there the triangles show; so do blended objects and meshes with tangents.
 ///
 /// On an object it wins over the [`ViewTolerance`].
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub struct Tolerance {
     #[doc = meaning!(steps)]
     ///
@@ -67,5 +65,6 @@ impl Described for Tolerance {
 }
 
 /// The tolerance of objects that have none of their own.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::resource::Resource))]
 pub struct ViewTolerance(pub Tolerance);

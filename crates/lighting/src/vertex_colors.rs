@@ -1,7 +1,5 @@
 //! The use of the colours at the vertices of a mesh.
 
-use bevy_ecs::component::Component;
-
 /// The use that an object makes of the colours at the vertices of its mesh. It has no effect on a mesh without them.
 ///
 /// A colour is linear RGB and an opacity, each taken into 0 to 1 as glTF 2.0 §3.7.2.1 has it for `COLOR_0`. Emission
@@ -10,7 +8,8 @@ use bevy_ecs::component::Component;
 /// - Gouraud: each vertex is shaded with its own colour; intensities are interpolated, and so is the opacity.
 /// - Phong: the colour is interpolated, perspective-correctly, to each fragment.
 /// - Flat: the mean of the three corners' colours, at the centroid.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub enum VertexColors {
     /// They multiply the ambient and diffuse reflectance, and the opacity where the object is blended
     /// ([`Blend`](crate::Blend)); on both sides.

@@ -5,7 +5,7 @@
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use bevy_math::Vec3;
+use glam::Vec3;
 use halfway_mesh::{LodGroup, LodHierarchy, Mesh, Plane, Teapot, UvSphere};
 use peak_alloc::PeakAlloc;
 

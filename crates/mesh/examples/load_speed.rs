@@ -12,8 +12,8 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use bevy_math::{Mat4, Vec2, Vec3};
 use counting::Counting;
+use glam::{Mat4, Vec2, Vec3};
 use gltf::mesh::util::{ReadIndices, ReadTexCoords};
 use halfway_mesh::{Mesh, Model, Part, load, write};
 

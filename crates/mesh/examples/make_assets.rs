@@ -6,7 +6,7 @@ use std::f32::consts::{FRAC_1_SQRT_2, TAU};
 use std::fmt::Write as _;
 use std::path::Path;
 
-use bevy_math::{Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use halfway_mesh::{Bounds, Mesh, Teapot};
 
 #[path = "make_assets/textured.rs"]

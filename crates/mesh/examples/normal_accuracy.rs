@@ -8,7 +8,7 @@
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::{PI, TAU};
 
-use bevy_math::{DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use halfway_mesh::{BezierPatch, Mesh, NormalWeighting, Normals, Parameter, SurfacePiece, Teapot};
 
 const WEIGHTINGS: [NormalWeighting; 4] =

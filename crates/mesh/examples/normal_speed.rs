@@ -4,7 +4,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use bevy_math::{DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use halfway_mesh::{Mesh, NormalWeighting, Normals};
 
 /// A torus of 1000 × 500 cells, its vertices in rows, every one used.

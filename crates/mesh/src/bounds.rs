@@ -1,11 +1,11 @@
 //! Axis-aligned boxes.
 
-use bevy_math::{DVec3, Mat4, Vec3};
+use glam::{DVec3, Mat4, Vec3};
 
 /// An axis-aligned box: the smallest that holds a set of points. Never empty, always finite.
 ///
 /// ```
-/// use bevy_math::Vec3;
+/// use glam::Vec3;
 /// use halfway_mesh::{Bounds, Mesh, Teapot};
 ///
 /// let teapot = Mesh::from(Teapot::new(8)).bounds();

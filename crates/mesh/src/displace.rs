@@ -1,6 +1,6 @@
 //! Displacement: vertices moved along their normals.
 
-use bevy_math::{DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 use crate::numbering::Numbering;
 use crate::{Mesh, MeshError, NormalReport, NormalWeighting, Normals};

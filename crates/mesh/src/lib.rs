@@ -1,18 +1,27 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Features
+//! Both are on by default.
+//! - `ecs`: [`Mesh3d`], [`MeshPlugin`] and [`SpawnOrder`]. Without it the crate has no ECS below it.
+//! - `formats`: model files, which are [`load`], [`write`](write()) and [`Model`] with what it holds.
 
 mod bounds;
 mod classes;
+#[cfg(feature = "ecs")]
 mod component;
 mod displace;
 mod edges;
+#[cfg(feature = "formats")]
 mod files;
 mod mesh;
+#[cfg(feature = "formats")]
 mod model;
 mod normals;
 mod numbering;
 mod occlusion;
 mod prepare;
 mod problems;
+#[cfg(feature = "formats")]
 mod source_map;
 mod subdivide;
 mod surfaces;
@@ -20,11 +29,14 @@ mod tangents;
 mod triangle_tree;
 
 pub use bounds::Bounds;
+#[cfg(feature = "ecs")]
 pub use component::{Mesh3d, MeshPlugin, SpawnOrder};
+#[cfg(feature = "formats")]
 pub use files::{
     Format, LoadError, LoadOptions, LoadProgress, WriteError, load, load_bytes, load_with, write, write_quantised,
 };
 pub use mesh::{Mesh, MeshError};
+#[cfg(feature = "formats")]
 pub use model::{
     AlphaMode, GltfMaps, MetallicRoughness, Model, MtlMaps, MtlMaterial, Part, SourceCamera, SourceLight,
     SourceLightKind, SourceMaterial, SourceProjection,
@@ -35,6 +47,7 @@ pub use prepare::{
     DistanceBounds, LodCluster, LodGroup, LodHierarchy, MeshReport, RepairReport, SimplifiedMesh, Weld, WeldReport,
 };
 pub use problems::Problems;
+#[cfg(feature = "formats")]
 pub use source_map::{SourceChannel, SourceLevels, SourceMap, SourceWrap};
 pub use subdivide::Subdivision;
 pub use surfaces::{

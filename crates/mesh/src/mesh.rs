@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_math::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use thiserror::Error;
 
 use crate::edges::Edges;
@@ -20,7 +20,7 @@ use crate::{Bounds, NormalReport, NormalWeighting, Surface};
 /// A mesh does not change once it is made, and its clones share its data.
 ///
 /// ```
-/// use bevy_math::{Vec2, Vec3};
+/// use glam::{Vec2, Vec3};
 /// use halfway_mesh::Mesh;
 ///
 /// // A square of two triangles, with computed normals and the whole texture.
@@ -36,15 +36,16 @@ pub struct Mesh {
     data: Arc<MeshData>,
 }
 
+/// Each list is shared by itself, so that a mesh that moves shares its triangles with the one before.
 #[derive(Clone, Debug, PartialEq)]
 struct MeshData {
-    positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    uvs: Option<Vec<Vec2>>,
-    second_uvs: Option<Vec<Vec2>>,
-    colors: Option<Vec<Vec4>>,
-    tangents: Option<Vec<Vec4>>,
-    indices: Vec<u32>,
+    positions: Arc<Vec<Vec3>>,
+    normals: Arc<Vec<Vec3>>,
+    uvs: Option<Arc<Vec<Vec2>>>,
+    second_uvs: Option<Arc<Vec<Vec2>>>,
+    colors: Option<Arc<Vec<Vec4>>>,
+    tangents: Option<Arc<Vec<Vec4>>>,
+    indices: Arc<Vec<u32>>,
     bounds: Bounds,
     surface: Option<Surface>,
 }
@@ -52,7 +53,7 @@ struct MeshData {
 /// Why a mesh was refused. Vertices and triangles are numbered from 0.
 ///
 /// ```
-/// use bevy_math::Vec3;
+/// use glam::Vec3;
 /// use halfway_mesh::{Mesh, MeshError};
 ///
 /// let error = Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![0, 1, 3]).unwrap_err();
@@ -125,6 +126,17 @@ pub enum MeshError {
     },
 }
 
+impl MeshData {
+    /// Puts the vertices elsewhere, to valid positions, as many as before.
+    fn place(&mut self, positions: Vec<Vec3>) {
+        if let Some(bounds) = Bounds::from_points(positions.iter().copied()) {
+            self.bounds = bounds;
+        }
+        self.positions = Arc::new(positions);
+        self.surface = None;
+    }
+}
+
 impl Mesh {
     /// A mesh with normals of the default weighting ([`NormalWeighting::Max`]).
     ///
@@ -185,13 +197,13 @@ impl Mesh {
         let bounds =
             Bounds::from_points(positions.iter().copied()).unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO });
         let data = MeshData {
-            positions,
-            normals,
-            uvs,
+            positions: Arc::new(positions),
+            normals: Arc::new(normals),
+            uvs: uvs.map(Arc::new),
             second_uvs: None,
             colors: None,
             tangents: None,
-            indices,
+            indices: Arc::new(indices),
             bounds,
             surface: None,
         };
@@ -201,12 +213,17 @@ impl Mesh {
     /// Moves the vertices; triangles, texture coordinates and colours stay, and so do the normals and tangents until
     /// [`set_normals`](Self::set_normals).
     ///
-    /// This is the cheap way to change a mesh each frame: nothing is made anew but the bounds, and nothing is copied
-    /// unless another clone of the mesh holds its data. A formula gives the normals at less cost than
-    /// [`with_normals`](Self::with_normals), which sums them over the triangles.
+    /// This is the cheap way to change a mesh each frame: change the asset itself, by `Assets::get_mut`. Nothing is made
+    /// anew but the bounds. What draws recognises the triangles and keeps how it has laid them out: from the second
+    /// change on it measures the moved vertices and sorts nothing. A mesh that is made anew each frame, by
+    /// [`from_parts`](Self::from_parts), is laid out anew each time. The example `waves` moves a sheet of 100 × 100
+    /// vertices.
+    ///
+    /// A formula gives the normals at less cost than [`with_normals`](Self::with_normals), which sums them over the
+    /// triangles.
     ///
     /// ```
-    /// use bevy_math::{Vec2, Vec3};
+    /// use glam::{Vec2, Vec3};
     /// use halfway_mesh::{Mesh, MeshError, Plane};
     ///
     /// // A wave along x: height a·sin(x), normal (−a·cos(x), 1, 0), scaled to unit length.
@@ -229,12 +246,7 @@ impl Mesh {
     pub fn set_positions(&mut self, positions: Vec<Vec3>) -> Result<(), MeshError> {
         let vertices = self.positions().len();
         check_attribute("position", vertices, positions.iter().map(Vec3::to_array))?;
-        let data = Arc::make_mut(&mut self.data);
-        if let Some(bounds) = Bounds::from_points(positions.iter().copied()) {
-            data.bounds = bounds;
-        }
-        data.positions = positions;
-        data.surface = None;
+        Arc::make_mut(&mut self.data).place(positions);
         Ok(())
     }
 
@@ -248,7 +260,7 @@ impl Mesh {
         check_attribute("normal", vertices, normals.iter().map(Vec3::to_array))?;
         let (normals, _) = kept_normals(normals, self.positions(), self.indices());
         let data = Arc::make_mut(&mut self.data);
-        data.normals = normals;
+        data.normals = Arc::new(normals);
         data.tangents = None;
         Ok(())
     }
@@ -261,7 +273,7 @@ impl Mesh {
         let vertices = self.positions().len();
         check_attribute("colour", vertices, colors.iter().map(|c| c.truncate().to_array()))?;
         check_attribute("opacity", vertices, colors.iter().map(|c| [c.w, 0.0, 0.0]))?;
-        Ok(self.changed(|data| data.colors = Some(colors)))
+        Ok(self.changed(|data| data.colors = Some(Arc::new(colors))))
     }
 
     /// The mesh with a second pair of texture coordinates a vertex, beside the first.
@@ -270,7 +282,7 @@ impl Mesh {
     /// Not one pair a vertex, or one that is not finite.
     pub fn with_second_uvs(self, uvs: Vec<Vec2>) -> Result<Self, MeshError> {
         check_attribute("uv", self.positions().len(), uvs.iter().map(|uv| [uv.x, uv.y, 0.0]))?;
-        Ok(self.changed(|data| data.second_uvs = Some(uvs)))
+        Ok(self.changed(|data| data.second_uvs = Some(Arc::new(uvs))))
     }
 
     /// The mesh with more vertices, each in the middle of two old ones in every attribute, and these triangles.
@@ -287,32 +299,27 @@ impl Mesh {
         let uvs = self.uvs().map(|all| extend(all, pairs.clone(), Vec2::midpoint));
         let mesh = Self::checked(positions, normals, uvs, indices);
         mesh.changed(|data| {
-            data.second_uvs = self.uv_set(1).map(|all| extend(all, pairs.clone(), Vec2::midpoint));
-            data.colors = self.colors().map(|all| extend(all, pairs, Vec4::midpoint));
+            data.second_uvs = self.uv_set(1).map(|all| Arc::new(extend(all, pairs.clone(), Vec2::midpoint)));
+            data.colors = self.colors().map(|all| Arc::new(extend(all, pairs, Vec4::midpoint)));
         })
     }
 
     /// Replaces the normals by valid ones. Tangents, which belong to the old normals, are dropped.
     pub(crate) fn with_given_normals(self, normals: Vec<Vec3>) -> Self {
         self.changed(|data| {
-            data.normals = normals;
+            data.normals = Arc::new(normals);
             data.tangents = None;
         })
     }
 
     /// Replaces the positions by valid ones, as many as before.
     pub(crate) fn with_given_positions(self, positions: Vec<Vec3>) -> Self {
-        let MeshData { normals, uvs, second_uvs, colors, tangents, indices, .. } = Arc::unwrap_or_clone(self.data);
-        Self::checked(positions, normals, uvs, indices).changed(|data| {
-            data.second_uvs = second_uvs;
-            data.colors = colors;
-            data.tangents = tangents;
-        })
+        self.changed(|data| data.place(positions))
     }
 
     /// Replaces the tangents by valid ones.
     pub(crate) fn with_given_tangents(self, tangents: Vec<Vec4>) -> Self {
-        self.changed(|data| data.tangents = Some(tangents))
+        self.changed(|data| data.tangents = Some(Arc::new(tangents)))
     }
 
     /// The mesh as one that stands for `surface`: the caller's promise that it approximates it, in the same space and
@@ -337,9 +344,9 @@ impl Mesh {
         let uvs = self.uvs().map(|all| pick(all, vertices));
         let mesh = Self::checked(pick(self.positions(), vertices), pick(self.normals(), vertices), uvs, indices);
         mesh.changed(|data| {
-            data.second_uvs = self.uv_set(1).map(|all| pick(all, vertices));
-            data.colors = self.colors().map(|all| pick(all, vertices));
-            data.tangents = self.tangents().map(|all| pick(all, vertices));
+            data.second_uvs = self.uv_set(1).map(|all| Arc::new(pick(all, vertices)));
+            data.colors = self.colors().map(|all| Arc::new(pick(all, vertices)));
+            data.tangents = self.tangents().map(|all| Arc::new(pick(all, vertices)));
             data.surface = self.surface().cloned();
         })
     }
@@ -349,6 +356,17 @@ impl Mesh {
         let groups = Numbering::from_positions(self.positions());
         let edges = Edges::new(groups.triangles(self.indices()));
         (groups, edges)
+    }
+
+    /// Whether both are clones of one mesh, of which neither has changed since.
+    pub fn is_clone_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.data, &other.data)
+    }
+
+    /// Whether both have the same list of triangles: they are clones of one mesh whose vertices, if anything, have
+    /// changed since.
+    pub fn shares_triangles(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.data.indices, &other.data.indices)
     }
 
     /// The positions of the vertices.
@@ -364,7 +382,7 @@ impl Mesh {
     /// The texture coordinates of the vertices, one pair a vertex: (0, 0) is the top left of the image, (1, 1) the
     /// bottom right, as in glTF.
     pub fn uvs(&self) -> Option<&[Vec2]> {
-        self.data.uvs.as_deref()
+        self.data.uvs.as_ref().map(|list| &list[..])
     }
 
     /// One of the sets of texture coordinates: number 0 is [`uvs`](Self::uvs), number 1 the second; there are no
@@ -372,14 +390,14 @@ impl Mesh {
     pub fn uv_set(&self, number: usize) -> Option<&[Vec2]> {
         match number {
             0 => self.uvs(),
-            1 => self.data.second_uvs.as_deref(),
+            1 => self.data.second_uvs.as_ref().map(|list| &list[..]),
             _ => None,
         }
     }
 
     /// The colours of the vertices, one a vertex: linear RGB and opacity, finite but not limited to 0 … 1.
     pub fn colors(&self) -> Option<&[Vec4]> {
-        self.data.colors.as_deref()
+        self.data.colors.as_ref().map(|list| &list[..])
     }
 
     /// The colours as they are drawn: each number clamped to 0 … 1, as glTF 2.0 §3.7.2.1 requires for `COLOR_0`.
@@ -389,7 +407,7 @@ impl Mesh {
 
     /// The tangents of the vertices, one a vertex; see [`with_tangents`](Self::with_tangents).
     pub fn tangents(&self) -> Option<&[Vec4]> {
-        self.data.tangents.as_deref()
+        self.data.tangents.as_ref().map(|list| &list[..])
     }
 
     /// The indices of the triangles' corners: three a triangle, all in range.

@@ -1,6 +1,6 @@
 //! The contents of a model file, in the file's own terms.
 
-use bevy_math::Mat4;
+use glam::Mat4;
 
 use crate::{Bounds, Mesh, SourceMap};
 

@@ -2,7 +2,7 @@
 
 use std::hash::BuildHasher;
 
-use bevy_math::Vec3;
+use glam::Vec3;
 use hashbrown::{DefaultHashBuilder, HashTable};
 
 /// The numbers of a list: equal elements have the same number, counted from 0 in the order of first occurrence.
@@ -48,6 +48,7 @@ impl Numbering {
 
 /// Distinct keys that arrive one by one, numbered from 0 in the order of first occurrence: the corners of a file of any
 /// length, of which only the distinct ones are stored.
+#[cfg(feature = "formats")]
 #[derive(Default)]
 pub(crate) struct DistinctKeys {
     /// The key of each number.
@@ -55,6 +56,7 @@ pub(crate) struct DistinctKeys {
     table: KeyNumbers,
 }
 
+#[cfg(feature = "formats")]
 impl DistinctKeys {
     /// The number of a key. There are fewer than 2³² of them, since each takes bytes of the file.
     pub(crate) fn number(&mut self, key: [u32; 3]) -> u32 {

@@ -1,6 +1,6 @@
 //! Subdivision: each triangle becomes four.
 
-use bevy_math::{DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 use crate::edges::{Edge, Edges, next_corner};
 use crate::normals::{Fans, face_normals};

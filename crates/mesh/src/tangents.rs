@@ -1,7 +1,7 @@
 //! Tangents, for normal maps.
 
-use bevy_math::{DVec3, Vec2, Vec3, Vec4};
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 
 use crate::numbering::Numbering;
 use crate::{Mesh, MeshError};
@@ -17,7 +17,7 @@ impl Mesh {
     /// result does not depend on the size of the mesh.
     ///
     /// ```
-    /// use bevy_math::Vec4;
+    /// use glam::Vec4;
     /// use halfway_mesh::{Mesh, Plane};
     ///
     /// let plane = Mesh::from(Plane::default()).with_tangents()?;

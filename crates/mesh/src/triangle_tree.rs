@@ -1,6 +1,6 @@
 //! A bounding volume hierarchy of triangles that finds the nearest one, and those along a ray.
 
-use bevy_math::{DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 /// Three corners.
 pub(crate) type TriangleCorners = [DVec3; 3];

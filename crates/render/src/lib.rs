@@ -33,7 +33,7 @@ pub use gpu::pipelines::compile::Compile;
 #[cfg(feature = "wgpu")]
 pub use gpu::surface::{SurfaceLost, SurfaceTarget};
 #[cfg(feature = "wgpu")]
-pub use gpu::texture::TextureTarget;
+pub use gpu::texture::{Load, TextureTarget};
 #[cfg(feature = "wgpu")]
 pub use gpu::timer::GpuTimer;
 pub use halfway_frame::error::RenderError;

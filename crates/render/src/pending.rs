@@ -5,10 +5,11 @@ use crate::cpu::canvas::{Canvas, CanvasTarget};
 use crate::gpu::{attachments::Target, device::Gpu, read_back::ReadBack};
 use crate::picture::Picture;
 use bevy_app::App;
-use bevy_ecs::prelude::{Resource, World};
+use bevy_ecs::prelude::{ResMut, Resource, World};
 use bevy_ecs::schedule::InternedScheduleLabel;
 use halfway_frame::error::RenderError;
 use halfway_frame::report::FrameReport;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A picture on its way from what has drawn it. Poll it with [`PendingPicture::try_take`] while other frames
 /// are drawn, or wait for it with [`PendingPicture::wait`].
@@ -25,10 +26,21 @@ enum Pending {
 impl PendingPicture {
     /// Starts to copy the newest headless picture; later frames do not change what arrives.
     ///
+    /// In a system that runs before the frame of its update is drawn, in `Update` say, that is the picture of the update
+    /// before: the log says so once. Ask after [`RenderSet::Deliver`](crate::RenderSet::Deliver), or after the update.
+    ///
     /// # Errors
     /// [`RenderError::NoPicture`] before the first headless frame or while a window is the target;
     /// [`RenderError::TooLarge`] or [`RenderError::Memory`] where there is no room for the copy.
     pub fn request(world: &World) -> Result<Self, RenderError> {
+        let picture = Self::of_newest_frame(world)?;
+        if let Some(age) = world.get_resource::<PictureAge>() {
+            age.tell();
+        }
+        Ok(picture)
+    }
+
+    fn of_newest_frame(world: &World) -> Result<Self, RenderError> {
         #[cfg(feature = "wgpu")]
         if let (Some(gpu), Some(target)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) {
             let texture = target.picture().ok_or(RenderError::NoPicture)?;
@@ -121,9 +133,70 @@ pub fn take_picture(world: &mut World) -> Result<Picture, RenderError> {
 #[derive(Resource, Clone, Copy)]
 pub(crate) struct DrawnIn(pub(crate) InternedScheduleLabel);
 
+/// Whether the newest picture is that of the update before, as long as the update that runs has not drawn its own.
+#[derive(Resource, Default)]
+pub(crate) struct PictureAge {
+    is_a_frame_old: bool,
+    is_told: AtomicBool,
+}
+
+impl PictureAge {
+    /// When an update begins.
+    pub(crate) fn grow(mut age: ResMut<Self>) {
+        age.is_a_frame_old = true;
+    }
+
+    /// When a frame is drawn.
+    pub(crate) fn renew(mut age: ResMut<Self>) {
+        age.is_a_frame_old = false;
+    }
+
+    /// Logs once that a picture is asked for that is a frame old.
+    fn tell(&self) {
+        if self.is_a_frame_old && !self.is_told.swap(true, Ordering::Relaxed) {
+            log::warn!(
+                "the picture is a frame old: it is asked for before the frame of this update is drawn; ask after \
+                 `RenderSet::Deliver`, or after the update"
+            );
+        }
+    }
+}
+
 fn picture_of_frame(world: &World) -> Result<Picture, RenderError> {
     if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
         return Err(error.clone());
     }
     PendingPicture::request(world)?.wait()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AdapterChoice, Headless, RenderPlugin};
+    use bevy_app::Update;
+    use bevy_math::UVec2;
+    use bevy_transform::TransformPlugin;
+    use halfway_lighting::Camera;
+
+    #[test]
+    fn a_picture_that_is_a_frame_old_is_told() {
+        fn ask(world: &mut World) {
+            // There is none before the first frame.
+            let _ = PendingPicture::request(world);
+        }
+        let mut app = App::new();
+        app.add_plugins((TransformPlugin, RenderPlugin::default()))
+            .insert_resource(Headless { size: UVec2::new(8, 6), ..Headless::default() })
+            .insert_resource(AdapterChoice::cpu());
+        app.world_mut().spawn(Camera::default());
+        let told = |app: &App| app.world().resource::<PictureAge>().is_told.load(Ordering::Relaxed);
+        for _ in 0..2 {
+            render_picture(&mut app).expect("a picture");
+            take_picture(app.world_mut()).expect("a picture");
+        }
+        assert!(!told(&app));
+        app.add_systems(Update, ask);
+        app.update();
+        assert!(told(&app));
+    }
 }

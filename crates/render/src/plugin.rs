@@ -6,10 +6,10 @@ use crate::cpu::device::Cpu;
 #[cfg(feature = "wgpu")]
 use crate::gpu::{self, device::Gpu};
 use crate::headless::{self, Headless};
-use crate::pending::DrawnIn;
+use crate::pending::{DrawnIn, PictureAge};
 use crate::replaced;
 use crate::told::{self, Told};
-use bevy_app::{App, Plugin, PostUpdate};
+use bevy_app::{App, First, Plugin, PostUpdate};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
 use halfway_frame::report::FrameReport;
@@ -25,7 +25,8 @@ use halfway_frame::{FramePlugin, ReadCamera};
 ///
 /// Each error of a frame is logged once by the `log` crate (target `halfway_render::errors`; a window says them
 /// itself), and so is each warning: an opacity that is not shown without
-/// [`Blend`](halfway_lighting::Blend), and why a picture shows nothing ([`why_empty`](crate::why_empty)).
+/// [`Blend`](halfway_lighting::Blend), why a picture shows nothing ([`why_empty`](crate::why_empty)), and
+/// that a picture is asked for that is a frame old ([`PendingPicture::request`](crate::PendingPicture::request)).
 ///
 /// Brings [`FramePlugin`] and the plugins of meshes, lighting and textures. May be added before or after other plugins,
 /// and to an App that has
@@ -47,6 +48,9 @@ impl Plugin for RenderPlugin {
         app.add_plugins(FramePlugin { schedule: self.schedule })
             .insert_resource(DrawnIn(self.schedule))
             .init_resource::<Told>()
+            .init_resource::<PictureAge>()
+            .add_systems(First, PictureAge::grow)
+            .add_systems(self.schedule, PictureAge::renew.in_set(RenderSet::Deliver))
             .init_resource::<AdapterChoice>()
             .init_resource::<Headless>()
             .add_systems(

@@ -102,10 +102,11 @@ impl Open {
             }
             // A window has one surface at a time.
             world.remove_resource::<SurfaceTarget>();
-            match world.get_resource::<Gpu>().filter(|_| !device_lost).cloned() {
-                Some(gpu) => {
-                    let surface = make_surface(&gpu.instance, &self.window)?;
-                    world.insert_resource(SurfaceTarget::new(&gpu, surface, self.size)?);
+            let gpu = world.get_resource::<Gpu>().filter(|_| !device_lost).cloned();
+            match gpu.as_ref().and_then(|gpu| Some((gpu, gpu.instance.as_ref()?))) {
+                Some((gpu, instance)) => {
+                    let surface = make_surface(instance, &self.window)?;
+                    world.insert_resource(SurfaceTarget::new(gpu, surface, self.size)?);
                 }
                 None => self.buffer = open_adapter(&self.window, &self.display, world)?,
             }

@@ -30,7 +30,7 @@ impl Machine {
         let known = |text: String| if text.is_empty() { UNKNOWN.to_owned() } else { text };
         let [name, backend, driver, driver_version] = match adapter {
             Adapter::Gpu(gpu) => {
-                let info = gpu.adapter.get_info();
+                let info = gpu.device.adapter_info();
                 [info.name, info.backend.to_string(), info.driver, info.driver_info]
             }
             Adapter::Cpu(cpu) => [cpu.vectors(), Cpu::NAME.into(), "halfway".into(), env!("CARGO_PKG_VERSION").into()],

@@ -4,7 +4,6 @@ use crate::batch::batches::Batches;
 use crate::error::RenderError;
 use crate::geometry::meshes::{Form, Geometries, Geometry};
 use crate::geometry::patches::Patches;
-use crate::geometry::workshop::is_same;
 use crate::report::FrameReport;
 use bevy_platform::collections::HashMap;
 use halfway_asset::AssetId;
@@ -22,6 +21,18 @@ struct DrawnMesh<T> {
     made: T,
     source: Mesh,
     patches: Arc<Patches>,
+    /// Where the mesh moves: the triangles in the order in which they are drawn.
+    triangles: Option<Arc<Vec<[u32; 3]>>>,
+}
+
+/// What was made of a mesh before it changed.
+pub enum Before<T> {
+    /// Nothing, or nothing that is of use.
+    Nothing,
+    /// The same vertices, with other triangles.
+    SameVertices(T),
+    /// The same triangles in the same order, with other vertices.
+    SameTriangles(T),
 }
 
 impl<T> Default for DrawnMeshes<T> {
@@ -47,14 +58,14 @@ impl<T> DrawnMeshes<T> {
     }
 
     /// Forgets meshes that are gone, and makes what is missing or out of date for those that are drawn: `make` takes
-    /// the mesh, its indices, its form, and what was made of the same mesh with other triangles; it says how many bytes
-    /// it has made. Where it fails the mesh is not drawn, and its error is in the report, every frame anew.
+    /// the mesh, its indices, its form, and what was made of it before; it says how many bytes it has made. Where it
+    /// fails the mesh is not drawn, and its error is in the report, every frame anew.
     pub fn make_ready(
         &mut self,
         batches: &Batches,
         geometries: &mut Geometries,
         report: &mut FrameReport,
-        make: impl Fn(&Geometry, &[u32], Form, Option<&T>) -> Result<(T, u64), RenderError>,
+        make: impl Fn(&Geometry, &[u32], Form, Before<T>) -> Result<(T, u64), RenderError>,
     ) {
         if self.forgotten != geometries.forgotten {
             self.forgotten = geometries.forgotten;
@@ -67,20 +78,30 @@ impl<T> DrawnMeshes<T> {
                 continue;
             }
             let Some(geometry) = geometries.get_mut(key.0, key.1) else { continue };
-            let there = self.meshes.get(&key).filter(|there| is_same(&there.source, &geometry.source));
-            if there.is_some_and(|there| Arc::ptr_eq(&there.patches, &geometry.patches)) {
+            let Some(triangles) = geometry.triangles.clone() else { continue };
+            let there = self.meshes.get(&key);
+            let is_ready = there.is_some_and(|there| {
+                there.source.is_clone_of(&geometry.source) && Arc::ptr_eq(&there.patches, &geometry.patches)
+            });
+            if is_ready {
                 continue;
             }
-            let Some(triangles) = &geometry.triangles else { continue };
-            match make(geometry, triangles.as_flattened(), key.1, there.map(|there| &there.made)) {
+            let before = match self.meshes.remove(&key) {
+                Some(there) if there.source.is_clone_of(&geometry.source) => Before::SameVertices(there.made),
+                Some(there) if there.triangles.as_ref().is_some_and(|kept| Arc::ptr_eq(kept, &triangles)) => {
+                    Before::SameTriangles(there.made)
+                }
+                _ => Before::Nothing,
+            };
+            match make(geometry, triangles.as_flattened(), key.1, before) {
                 Ok((made, bytes)) => {
                     report.bytes_uploaded += bytes;
-                    geometry.triangles = None;
+                    geometry.triangles.take_if(|_| !geometry.moves);
                     let (source, patches) = (geometry.source.clone(), Arc::clone(&geometry.patches));
-                    self.meshes.insert(key, DrawnMesh { made, source, patches });
+                    let triangles = geometry.triangles.clone();
+                    self.meshes.insert(key, DrawnMesh { made, source, patches, triangles });
                 }
                 Err(error) => {
-                    self.meshes.remove(&key);
                     if !report.errors.contains(&error) {
                         report.errors.push(error);
                     }

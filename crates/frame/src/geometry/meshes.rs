@@ -1,7 +1,7 @@
 //! Meshes laid out for drawing.
 
 use crate::geometry::patches::{MeshTriangles, Patches, Prepared};
-use crate::geometry::workshop::{Workshop, is_same};
+use crate::geometry::workshop::Workshop;
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::{Chosen, by_vertex_shader};
 use crate::report::FrameReport;
@@ -20,14 +20,17 @@ use std::sync::Arc;
 pub struct Geometry {
     /// Its patches.
     pub patches: Arc<Patches>,
-    /// The mesh it was made of; a mesh is immutable and shares its data, so the same data is the same mesh.
+    /// The mesh it was made of. While it is kept here, an asset that changes is no longer a clone of it.
     pub(crate) source: Mesh,
     /// The mesh that is drawn: the same, with tangents where they were asked for.
     pub drawn: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
-    /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken them.
+    /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken them, or for
+    /// as long as the mesh [moves](Self::moves).
     pub(crate) triangles: Option<Arc<Vec<[u32; 3]>>>,
+    /// The vertices have moved since the mesh was drawn first, and may move again.
+    pub(crate) moves: bool,
     /// The same as the CPU draws them, where they have been made ready beside the frames.
     pub pieces: Option<Prepared>,
 }
@@ -146,25 +149,43 @@ impl Geometries {
         self.meshes.clear();
     }
 
-    /// Lays the mesh out unless it is, and with its levels of detail once they are there.
+    /// Lays the mesh out unless it is, and with its levels of detail once they are there. A mesh whose vertices have moved
+    /// keeps its patches, from the second time on.
     fn ensure(&mut self, (id, form): (AssetId<Mesh>, Form), mesh: &Mesh, levels: Option<&MeshTriangles>) {
-        let there = self.meshes.get(&(id, form)).filter(|geometry| is_same(&geometry.source, mesh));
-        if there.is_some_and(|there| levels.is_none_or(|levels| Arc::ptr_eq(&levels.patches, &there.patches))) {
+        let there = self.meshes.get(&(id, form));
+        let is_there = there.is_some_and(|there| {
+            there.source.is_clone_of(mesh) && levels.is_none_or(|levels| Arc::ptr_eq(&levels.patches, &there.patches))
+        });
+        if is_there {
             return;
         }
         // Tangents split vertices, and nothing else changes.
         let dressed = form.tangents.filter(|_| mesh.tangents().is_none());
         let dressed = dressed.and_then(|set| mesh.clone().with_tangents_of(set as usize).ok());
         let drawn = dressed.unwrap_or_else(|| mesh.clone());
-        let MeshTriangles { corners, patches, pieces } = match levels {
-            Some(levels) => levels.clone(),
-            None if form.ordered => MeshTriangles::in_order(&drawn),
-            None => MeshTriangles::in_patches(&drawn),
+        let before = there.filter(|there| levels.is_none() && drawn.shares_triangles(&there.drawn));
+        let moves = before.is_some();
+        let moved = before.and_then(|before| before.moved_to(&drawn));
+        let MeshTriangles { corners, patches, pieces } = match (moved, levels) {
+            (Some(moved), _) => moved,
+            (None, Some(levels)) => levels.clone(),
+            (None, None) if form.ordered => MeshTriangles::in_order(&drawn),
+            (None, None) => MeshTriangles::in_patches(&drawn),
         };
         let opposite_normals = !form.flat && has_opposite_normals(&drawn, &corners);
         let triangles = Some(corners);
-        let geometry = Geometry { patches, source: mesh.clone(), drawn, opposite_normals, triangles, pieces };
+        let geometry = Geometry { patches, source: mesh.clone(), drawn, opposite_normals, triangles, moves, pieces };
         self.meshes.insert((id, form), geometry);
+    }
+}
+
+impl Geometry {
+    /// The patches of the same triangles between moved vertices; `None` where they are not kept, or lie so far apart by
+    /// now that others are better.
+    fn moved_to(&self, mesh: &Mesh) -> Option<MeshTriangles> {
+        let corners = self.triangles.clone().filter(|_| self.moves)?;
+        let patches = Arc::new(self.patches.moved_to(mesh, &corners)?);
+        Some(MeshTriangles { corners, patches, pieces: None })
     }
 }
 

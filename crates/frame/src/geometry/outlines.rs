@@ -1,7 +1,7 @@
 //! Outlines: what tells whether a piece of a mesh shows, apart from all else that is known of it. In each frame those
 //! of all patches are looked at, and of most patches nothing else.
 
-use crate::geometry::shape::{ANGLE_SLACK, PatchShape, sphere_around};
+use crate::geometry::shape::{ANGLE_SLACK, PatchShape, larger, radius_of, smaller, sphere_around};
 use crate::view::camera::View;
 use crate::view::matrices::ModelView;
 use bevy_math::Vec3;
@@ -28,7 +28,8 @@ pub(crate) struct Outline {
 /// Bounds for a direction are rounded up to a 20,000th.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Facing {
-    /// The largest n·d of all triangles for each of [`Facing::DIRECTIONS`], in [`Facing::PARTS`].
+    /// The largest n·d of all triangles, in [`Facing::PARTS`], for ±x, ±y, ±z, then ±x ± y, ±x ± z, ±y ± z: numbered by
+    /// the signs of their coordinates, 1 where they are negative.
     most: [i16; 18],
     /// The largest n·(c − p) of all, and the largest −n·(c − p).
     beyond: [f32; 2],
@@ -36,6 +37,7 @@ pub(super) struct Facing {
 
 impl Facing {
     /// Numbered by the signs of their coordinates, 1 where they are negative: ±x, ±y, ±z; then ±x ± y, ±x ± z, ±y ± z.
+    #[cfg(test)]
     const DIRECTIONS: [Vec3; 18] = {
         const fn d(x: i32, y: i32, z: i32) -> Vec3 {
             Vec3::new(x as f32, y as f32, z as f32)
@@ -73,16 +75,28 @@ impl Facing {
 
     /// Of triangles with these normals, whose corners are so far from the centre of the patch.
     pub(super) fn new(triangles: impl Iterator<Item = (Vec3, [Vec3; 3])>) -> Self {
-        let mut facing = Self::NONE;
+        // For one of two opposite directions each: n·d is the least for the other.
+        let mut most = [f32::NEG_INFINITY; 9];
+        let mut least = [f32::INFINITY; 9];
+        let mut beyond = [f32::NEG_INFINITY; 2];
         for (n, offsets) in triangles {
-            for (most, d) in facing.most.iter_mut().zip(Self::DIRECTIONS) {
-                *most = (*most).max((Self::PARTS * n.dot(d)).ceil() as i16);
-            }
+            let Vec3 { x, y, z } = n;
+            let along = [x, y, z, x + y, x - y, x + z, x - z, y + z, y - z];
+            most = std::array::from_fn(|i| larger(most[i], along[i]));
+            least = std::array::from_fn(|i| smaller(least[i], along[i]));
             for height in offsets.map(|offset| n.dot(offset)) {
-                facing.beyond = [facing.beyond[0].max(-height), facing.beyond[1].max(height)];
+                beyond = [larger(beyond[0], -height), larger(beyond[1], height)];
             }
         }
-        facing
+        // By the numbers of the directions.
+        let [x, y, z, x_y, x_ny, x_z, x_nz, y_z, y_nz] = std::array::from_fn(|i| [most[i], -least[i]]);
+        let most = [
+            x[0], x[1], y[0], y[1], z[0], z[1], //
+            x_y[0], x_ny[0], x_ny[1], x_y[1], //
+            x_z[0], x_nz[0], x_nz[1], x_z[1], //
+            y_z[0], y_nz[0], y_nz[1], y_z[1],
+        ];
+        Self { most: most.map(|most| (Self::PARTS * most).ceil() as i16), beyond }
     }
 
     /// Of all of these, around centres that are so far from the centre of all.
@@ -186,8 +200,8 @@ impl Outline {
     /// All of a mesh, of whose normals nothing is known.
     pub(crate) fn whole(mesh: &Mesh) -> Self {
         let center = mesh.bounds().center();
-        let farthest = mesh.positions().iter().map(|p| length((*p - center).to_array())).fold(0.0, f32::max);
-        Self { center, radius: farthest * (1.0 + 1e-5), facing: Facing::UNKNOWN }
+        let radius = radius_of(mesh.positions().iter().map(|p| *p - center));
+        Self { center, radius, facing: Facing::UNKNOWN }
     }
 
     /// Of all of these together, one or more.
@@ -195,6 +209,11 @@ impl Outline {
         let (center, radius) = sphere_around(parts.iter().map(|part| (part.center, part.radius)));
         let facing = Facing::around(parts.iter().map(|part| (&part.facing, length((part.center - center).to_array()))));
         Self { center, radius, facing }
+    }
+
+    /// The radius of the sphere around it, in the mesh's units.
+    pub(super) fn radius(&self) -> f32 {
+        self.radius
     }
 
     /// The sphere around it in eye space.
@@ -222,6 +241,13 @@ mod tests {
     #[test]
     fn an_outline_is_a_line_of_a_cache() {
         assert!(size_of::<Outline>() <= 64, "{}", size_of::<Outline>());
+    }
+
+    #[test]
+    fn directions_have_their_numbers() {
+        let n = Vec3::new(0.3, -0.5, 0.8).normalize();
+        let facing = Facing::new(std::iter::once((n, [Vec3::ZERO; 3])));
+        assert_eq!(facing.most, Facing::DIRECTIONS.map(|d| (Facing::PARTS * n.dot(d)).ceil() as i16));
     }
 
     /// Rounded bounds are never less, and nothing hides what may face anywhere.

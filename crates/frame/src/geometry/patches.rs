@@ -4,6 +4,7 @@ use crate::geometry::outlines::{Facing, Outline, Sight};
 use crate::geometry::shape::PatchShape;
 use bevy_math::Vec3;
 use halfway_mesh::{Bounds, LodGroup, LodHierarchy, Mesh, face_normal};
+use rayon::prelude::*;
 use std::any::Any;
 use std::ops::Range;
 use std::sync::Arc;
@@ -36,6 +37,8 @@ pub struct Patches {
     levels: Option<Levels>,
     /// The outline of the whole mesh.
     pub(crate) whole: Outline,
+    /// How large the patches are together, measured by the mesh, when the triangles were sorted into them.
+    spread: f32,
 }
 
 #[derive(Debug)]
@@ -63,6 +66,12 @@ pub(crate) struct DetailDemand {
 
 /// A simplified version of no group, but of the mesh itself.
 const FINEST: u32 = u32::MAX;
+
+/// Patches are made anew once they are so many times as large as they were, measured by the mesh.
+const WIDER: f32 = 1.5;
+
+/// So many patches are measured by one thread, at least.
+const FEWEST: usize = 16;
 
 /// So many neighbouring patches are a group.
 const GROUP: usize = 8;
@@ -101,19 +110,39 @@ impl MeshTriangles {
 impl Patches {
     /// Patches of these runs of triangles, which follow each other.
     fn new(mesh: &Mesh, triangles: &[[u32; 3]], runs: impl Iterator<Item = Range<usize>>) -> Self {
-        let mut starts = vec![0];
-        let (shapes, outlines): (Vec<_>, Vec<_>) = runs
-            .map(|run| {
-                starts.push(3 * run.end as u32);
-                measure(mesh, &triangles[run])
-            })
-            .unzip();
+        let starts = std::iter::once(0).chain(runs.map(|run| 3 * run.end as u32)).collect();
+        let mut patches = Self::between(mesh, triangles, starts);
+        patches.spread = patches.spread_now();
+        patches
+    }
+
+    /// Patches whose indices begin at `starts`; all but the last, where those of the last patch end.
+    fn between(mesh: &Mesh, triangles: &[[u32; 3]], starts: Vec<u32>) -> Self {
+        let run = |ends: &[u32]| &triangles[ends[0] as usize / 3..ends[1] as usize / 3];
+        let measured: Vec<_> =
+            starts.par_windows(2).with_min_len(FEWEST).map(|ends| measure(mesh, run(ends))).collect();
+        let (shapes, outlines): (Vec<_>, Vec<_>) = measured.into_iter().unzip();
         let groups = outlines.chunks(GROUP).zip((0..).step_by(GROUP)).map(|(outlines, first)| PatchGroup {
             outline: Outline::around(outlines),
             patches: first..first + outlines.len() as u32,
         });
         let groups = groups.collect();
-        Self { shapes, outlines, starts, groups, levels: None, whole: Outline::whole(mesh) }
+        Self { shapes, outlines, starts, groups, levels: None, whole: Outline::whole(mesh), spread: 0.0 }
+    }
+
+    /// The same patches of a mesh whose vertices have moved. `None` where they have come to lie so far apart that it
+    /// pays to sort the triangles anew, and for levels of detail, which belong to the places that vertices had.
+    pub(crate) fn moved_to(&self, mesh: &Mesh, triangles: &[[u32; 3]]) -> Option<Self> {
+        if self.levels.is_some() {
+            return None;
+        }
+        let patches = Self::between(mesh, triangles, self.starts.clone());
+        (patches.spread_now() <= WIDER * self.spread).then_some(Self { spread: self.spread, ..patches })
+    }
+
+    fn spread_now(&self) -> f32 {
+        let radii: f32 = self.shapes.iter().map(PatchShape::radius).sum();
+        radii / self.whole.radius().max(f32::MIN_POSITIVE)
     }
 
     /// The number of patches.
@@ -195,17 +224,16 @@ impl Levels {
 
 /// The shape and the outline of some triangles.
 fn measure(mesh: &Mesh, triangles: &[[u32; 3]]) -> (PatchShape, Outline) {
-    let points = triangles.as_flattened().iter().map(|&i| mesh.positions()[i as usize]);
-    let center = Bounds::from_points(points).map_or(Vec3::ZERO, |bounds| bounds.center());
-    let faces = triangles.iter().filter_map(|corners| {
-        let corners = corners.map(|i| mesh.positions()[i as usize]);
-        let n = face_normal(corners[0], corners[1], corners[2])?;
-        Some((n, corners.map(|p| p - center)))
-    });
-    let faces: Vec<(Vec3, [Vec3; 3])> = faces.collect();
+    let of_corners = |list: &[Vec3]| triangles.as_flattened().iter().map(|&i| list[i as usize]).collect::<Vec<_>>();
+    let points = of_corners(mesh.positions());
+    let center = Bounds::from_points(points.iter().copied()).map_or(Vec3::ZERO, |bounds| bounds.center());
+    let offsets: Vec<Vec3> = points.iter().map(|p| *p - center).collect();
+    let corners = points.as_chunks::<3>().0.iter().zip(offsets.as_chunks::<3>().0);
+    let faces: Vec<(Vec3, [Vec3; 3])> =
+        corners.filter_map(|(&[a, b, c], offsets)| Some((face_normal(a, b, c)?, *offsets))).collect();
     let facing = Facing::new(faces.iter().copied());
     let faces: Vec<Vec3> = faces.into_iter().map(|(n, _)| n).collect();
-    let shape = PatchShape::new(mesh, triangles, center, &faces);
+    let shape = PatchShape::new(center, &offsets, &of_corners(mesh.normals()), &faces);
     let outline = Outline::new(&shape, facing);
     (shape, outline)
 }
@@ -250,6 +278,31 @@ mod tests {
             }
             assert_eq!(end as usize, 3 * triangles.len());
         }
+    }
+
+    #[test]
+    fn moved_patches_hold_their_triangles_until_they_are_torn_apart() {
+        let mut mesh = Mesh::from(Plane { size: 20.0, divisions: 64 });
+        let MeshTriangles { corners, patches, .. } = MeshTriangles::in_patches(&mesh);
+        let wave = |p: &Vec3| p.with_y((0.8 * p.x).sin());
+        mesh.set_positions(mesh.positions().iter().map(wave).collect()).expect("as many");
+        let moved = patches.moved_to(&mesh, &corners).expect("they lie together still");
+        assert_eq!(moved.len(), patches.len());
+        for patch in 0..moved.len() as u32 {
+            assert_eq!(moved.indices(patch), patches.indices(patch));
+            let run = moved.indices(patch).start as usize / 3..moved.indices(patch).end as usize / 3;
+            for triangle in &corners[run] {
+                let [a, b, c] = triangle.map(|i| mesh.positions()[i as usize]);
+                let holds = |p| moved.shape(patch).holds(p, Vec3::Y, face_normal(a, b, c));
+                assert!([a, b, c].into_iter().all(holds), "patch {patch}");
+            }
+        }
+        // Each vertex goes where another was.
+        let mut torn = mesh.positions().to_vec();
+        let count = torn.len();
+        torn = (0..count).map(|i| torn[i * 1999 % count]).collect();
+        mesh.set_positions(torn).expect("as many");
+        assert!(patches.moved_to(&mesh, &corners).is_none());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use bevy_math::Vec3;
 use halfway_lighting::Faces;
 use halfway_lighting::bounds::{self, NormalCone};
 use halfway_lighting::equations::vector::length;
-use halfway_mesh::{Bounds, Mesh};
+use halfway_mesh::Bounds;
 
 /// Normals spread wider than this from their mean, in radians, bound nothing. Below π/2 those that are interpolated
 /// stay inside the cone of the vertices'.
@@ -44,29 +44,27 @@ pub(crate) enum PatchNormals {
 }
 
 impl PatchCone {
-    fn new(normals: &[Vec3], offsets: impl Iterator<Item = Vec3>) -> Option<Self> {
+    fn new(normals: &[Vec3], offsets: &[Vec3]) -> Option<Self> {
         let axis = normals.iter().sum::<Vec3>().normalize_or_zero();
-        let least = normals.iter().map(|n| n.dot(axis)).fold(1.0, f32::min);
+        let least = normals.iter().map(|n| n.dot(axis)).fold(1.0, smaller);
         let half_angle = least.clamp(-1.0, 1.0).acos() + ANGLE_SLACK;
         if axis == Vec3::ZERO || half_angle >= WIDEST {
             return None;
         }
-        let farthest = offsets.map(|offset| offset.dot(axis).abs()).fold(0.0, f32::max);
+        let farthest = offsets.iter().map(|offset| offset.dot(axis).abs()).fold(0.0, larger);
         Some(Self { axis, half_angle, half_thickness: farthest * (1.0 + 1e-5) })
     }
 }
 
 impl PatchShape {
-    /// Of triangles between these corners around a centre: with the normals of those triangles that have one.
-    pub(super) fn new(mesh: &Mesh, triangles: &[[u32; 3]], center: Vec3, faces: &[Vec3]) -> Self {
-        let vertices = || triangles.as_flattened().iter().map(|&i| i as usize);
-        let offsets = || vertices().map(|i| mesh.positions()[i] - center);
-        let normals: Vec<Vec3> = vertices().map(|i| mesh.normals()[i]).collect();
+    /// Of triangles whose corners have these offsets from a centre and these normals; `faces` are the normals of those
+    /// triangles that have one.
+    pub(super) fn new(center: Vec3, offsets: &[Vec3], normals: &[Vec3], faces: &[Vec3]) -> Self {
         Self {
             center,
-            radius: offsets().map(|offset| length(offset.to_array())).fold(0.0, f32::max) * (1.0 + 1e-5),
-            faces: PatchCone::new(faces, offsets()),
-            normals: PatchCone::new(&normals, offsets()),
+            radius: radius_of(offsets.iter().copied()),
+            faces: PatchCone::new(faces, offsets),
+            normals: PatchCone::new(normals, offsets),
         }
     }
 
@@ -120,6 +118,27 @@ impl PatchShape {
             faces,
         }
     }
+}
+
+/// The radius of a sphere that holds points with these offsets from its centre. Measured by the largest coordinate, so
+/// that no square over- or underflows.
+pub(super) fn radius_of(offsets: impl Iterator<Item = Vec3> + Clone) -> f32 {
+    let largest = offsets.clone().map(Vec3::abs).fold(Vec3::ZERO, Vec3::max).max_element();
+    if largest == 0.0 {
+        return 0.0;
+    }
+    let farthest2 = offsets.map(|offset| (offset / largest).length_squared()).fold(0.0, larger);
+    (largest * (farthest2.sqrt() * (1.0 + 1e-5))).min(f32::MAX)
+}
+
+/// The larger of two numbers. An instruction, unlike [`f32::max`], which also says what becomes of NaN.
+pub(super) fn larger(a: f32, b: f32) -> f32 {
+    if b > a { b } else { a }
+}
+
+/// The smaller of two numbers.
+pub(super) fn smaller(a: f32, b: f32) -> f32 {
+    if b < a { b } else { a }
 }
 
 /// A sphere that holds all of these.

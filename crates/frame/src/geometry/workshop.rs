@@ -67,7 +67,7 @@ impl Workshop {
             return None;
         }
         let Self { orders, thread, cut, failures } = self;
-        let is_known = orders.get(&id).is_some_and(|order| is_same(&order.source, mesh));
+        let is_known = orders.get(&id).is_some_and(|order| order.source.is_clone_of(mesh));
         if !is_known {
             let made = if waits {
                 made(*cut, mesh, &AtomicBool::new(false))
@@ -101,7 +101,7 @@ impl Workshop {
         let made = thread.made.lock().unwrap_or_else(PoisonError::into_inner);
         for (id, source, triangles) in made.try_iter() {
             // The asset may have got another mesh since.
-            let Some(order) = self.orders.get_mut(&id).filter(|order| is_same(&order.source, &source)) else {
+            let Some(order) = self.orders.get_mut(&id).filter(|order| order.source.is_clone_of(&source)) else {
                 continue;
             };
             order.state = match triangles {
@@ -133,13 +133,6 @@ impl Workshop {
     pub(crate) fn pending(&self) -> u32 {
         self.orders.values().filter(|order| matches!(order.state, OrderState::Asked)).count() as u32
     }
-}
-
-/// Whether two meshes are clones of each other.
-pub(crate) fn is_same(a: &Mesh, b: &Mesh) -> bool {
-    a.positions().as_ptr() == b.positions().as_ptr()
-        && a.normals().as_ptr() == b.normals().as_ptr()
-        && a.indices().as_ptr() == b.indices().as_ptr()
 }
 
 fn no_levels(id: AssetId<Mesh>, reason: String) -> RenderError {

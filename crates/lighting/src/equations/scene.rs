@@ -1,6 +1,6 @@
 //! Inputs of the equations: the values of the components, in the number type and the space of the evaluation.
 
-use bevy_color::LinearRgba;
+use crate::LinearRgba;
 
 use super::Real;
 use super::vector::{mul, normalize};

@@ -1,8 +1,6 @@
 //! Parallel rays: a light at an infinite distance.
 
-use bevy_color::LinearRgba;
-use bevy_ecs::component::Component;
-use bevy_transform::components::Transform;
+use crate::LinearRgba;
 
 use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
@@ -19,7 +17,7 @@ use crate::record::{LightRecord, number};
 ///
 /// ```
 /// use bevy_color::LinearRgba;
-/// use bevy_math::Vec3;
+/// use glam::Vec3;
 /// use bevy_transform::components::Transform;
 /// use halfway_lighting::DirectionalLight;
 ///
@@ -30,8 +28,8 @@ use crate::record::{LightRecord, number};
 /// # sun.validate().expect("a valid light");
 /// # assert!(place.rotation.is_finite());
 /// ```
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[require(Transform)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component), require(bevy_transform::components::Transform))]
 pub struct DirectionalLight {
     #[doc = meaning!(ambient)]
     ///

@@ -1,8 +1,6 @@
 //! Light from all around: one colour from the sky, another from the ground.
 
-use bevy_color::LinearRgba;
-use bevy_ecs::component::Component;
-use bevy_transform::components::Transform;
+use crate::LinearRgba;
 
 use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
@@ -38,8 +36,8 @@ macro_rules! meaning {
 /// let outside = HemisphereLight::new(LinearRgba::rgb(0.3, 0.4, 0.6), LinearRgba::rgb(0.15, 0.1, 0.05));
 /// assert!(outside.validate().is_ok());
 /// ```
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[require(Transform)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component), require(bevy_transform::components::Transform))]
 pub struct HemisphereLight {
     #[doc = meaning!(sky)]
     ///

@@ -1,27 +1,37 @@
 //! The kinds of light, a file each.
 //!
 //! The file of a kind holds its component, its maths, its bound, its record, its WGSL function and its fields in scene
-//! files. The list at the end of this page names the kinds once: from it come [`Light`], [`LightComponent`], [`Kind`],
-//! the WGSL that calls the function of a light's kind, and [`LightQueries`]. Whatever draws asks a light by the traits
+//! files. One list names the kinds: from it come [`Light`], [`LightComponent`], [`Kind`], the WGSL that calls the function
+//! of a light's kind, and `LightQueries`. Whatever draws asks a light by the traits
 //! [`LightKind`] and [`LightSource`].
+
+/// Names the kinds once, for each macro that makes something of them.
+macro_rules! with_kinds {
+    ($make:ident) => {
+        $make! {
+            /// Parallel rays.
+            Directional directional: DirectionalLight Directional "DIRECTIONAL_LIGHTS";
+            /// From a point, in all directions.
+            Point point: PointLight Point "POINT_LIGHTS";
+            /// From a point, into a cone.
+            Spot spot: SpotLight Spot "SPOT_LIGHTS";
+            /// From all around: one colour from the sky, another from the ground.
+            Hemisphere hemisphere: HemisphereLight Hemisphere "HEMISPHERE_LIGHTS";
+        }
+    };
+}
 
 mod directional;
 mod hemisphere;
 mod point;
+#[cfg(feature = "ecs")]
+mod queries;
 mod spot;
 
 use std::fmt::Debug;
 use std::sync::LazyLock;
 
-use bevy_ecs::component::Component;
-use bevy_ecs::entity::Entity;
-use bevy_ecs::entity_disabling::Disabled;
-use bevy_ecs::name::Name;
-use bevy_ecs::query::{Added, Changed, Or, With};
-use bevy_ecs::system::{Query, SystemParam};
-use bevy_ecs::world::EntityWorldMut;
-use bevy_math::{DAffine3, DVec3};
-use bevy_transform::components::GlobalTransform;
+use glam::{DAffine3, DVec3};
 
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
@@ -30,17 +40,18 @@ use crate::equations::{Eye, Incidence, Irradiance, Real, ShadedPoint};
 use crate::field::Described;
 use crate::invalid::InvalidValue;
 use crate::record::LightRecord;
-use crate::visibility::Shown;
 
 pub use crate::falloff::{ATTENUATION_MAX, Attenuation, Cone, ConeTerms, attenuation, range_window, spot_factor};
 pub use crate::light_colors::Colors;
 pub use directional::{Directional, DirectionalLight};
 pub use hemisphere::{Hemisphere, HemisphereLight};
 pub use point::{Point, PointLight};
+#[cfg(feature = "ecs")]
+pub use queries::LightQueries;
 pub use spot::{Spot, SpotLight};
 
 /// A kind of light: the component, and how it becomes a light in an evaluation and in a record.
-pub trait LightKind: Component + Described + Debug + PartialEq {
+pub trait LightKind: Described + Debug + PartialEq {
     /// The name of the kind in scene files.
     const NAME: &'static str;
     /// The name of its function in [`WGSL`](Self::WGSL).
@@ -246,9 +257,6 @@ fn any_light(light: Light, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: 
     &TEXT
 }
 
-/// The data of a light of one kind in a query.
-type LightData<L> = (Entity, &'static L, &'static GlobalTransform, Option<&'static Name>);
-
 macro_rules! light_kinds {
     ($($(#[$meaning:meta])* $kind:ident $name:ident: $component:ident $source:ident $constant:literal;)*) => {
         /// The kinds of light, in the order in which their lights are summed. The numbers are those of records.
@@ -412,13 +420,6 @@ macro_rules! light_kinds {
         )*
 
         impl LightComponent {
-            /// Puts the component on an entity.
-            pub fn insert_into(self, entity: &mut EntityWorldMut) {
-                match self {
-                    $(Self::$kind(light) => entity.insert(light)),*
-                };
-            }
-
             /// The light where its entity stands.
             ///
             /// # Errors
@@ -430,60 +431,7 @@ macro_rules! light_kinds {
                 }
             }
         }
-
-        type AnyLight = Or<($(With<$component>,)*)>;
-        type AnyLightChange = Or<($(Changed<$component>,)* Changed<GlobalTransform>)>;
-
-        /// The lights of a world, as a parameter of a system.
-        #[derive(SystemParam)]
-        pub struct LightQueries<'w, 's> {
-            $($name: Query<'w, 's, LightData<$component>>,)*
-            changed: Query<'w, 's, (), (AnyLight, AnyLightChange)>,
-            disabled: Query<'w, 's, (), (AnyLight, With<Disabled>, Added<Disabled>)>,
-            shown: Shown<'w, 's>,
-        }
-
-        impl LightQueries<'_, '_> {
-            /// How many entities have a light of each kind, shown or not.
-            pub fn counts(&self) -> [usize; Kind::ALL.len()] {
-                [$(self.$name.iter().len()),*]
-            }
-
-            /// Visits the lights that are shown in a fixed order, so that sums repeat: by kind, then by entity.
-            pub fn visit(&self, mut visit: impl FnMut(Entity, Option<&Name>, LightComponent, &GlobalTransform)) {
-                let is_shown = self.shown.by_entity();
-                $({
-                    let mut all: Vec<_> = self.$name.iter().filter(|(entity, ..)| is_shown(*entity)).collect();
-                    all.sort_unstable_by_key(|(entity, ..)| *entity);
-                    for (entity, light, at, name) in all {
-                        visit(entity, name, LightComponent::$kind(*light), at);
-                    }
-                })*
-            }
-        }
     };
 }
 
-impl LightQueries<'_, '_> {
-    /// Whether a light or its transform has changed, or a light was disabled, since the system ran last. A light that
-    /// was removed is missing from [`counts`](Self::counts).
-    pub fn have_changed(&self) -> bool {
-        !self.changed.is_empty() || !self.disabled.is_empty()
-    }
-
-    /// Whether anything in the world is hidden, and so perhaps a light.
-    pub fn may_be_hidden(&self) -> bool {
-        self.shown.hides_any()
-    }
-}
-
-light_kinds! {
-    /// Parallel rays.
-    Directional directional: DirectionalLight Directional "DIRECTIONAL_LIGHTS";
-    /// From a point, in all directions.
-    Point point: PointLight Point "POINT_LIGHTS";
-    /// From a point, into a cone.
-    Spot spot: SpotLight Spot "SPOT_LIGHTS";
-    /// From all around: one colour from the sky, another from the ground.
-    Hemisphere hemisphere: HemisphereLight Hemisphere "HEMISPHERE_LIGHTS";
-}
+with_kinds!(light_kinds);

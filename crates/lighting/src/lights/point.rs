@@ -1,8 +1,6 @@
 //! A light at a point that shines in all directions.
 
-use bevy_color::LinearRgba;
-use bevy_ecs::component::Component;
-use bevy_transform::components::Transform;
+use crate::LinearRgba;
 
 use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
@@ -28,8 +26,8 @@ use crate::record::{self, LightRecord};
 /// let candle = PointLight::new(LinearRgba::rgb(1.0, 0.7, 0.3)).with_attenuation(Attenuation::INVERSE_SQUARE).with_range(4.0);
 /// assert!(candle.validate().is_ok());
 /// ```
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[require(Transform)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component), require(bevy_transform::components::Transform))]
 pub struct PointLight {
     #[doc = meaning!(ambient)]
     ///

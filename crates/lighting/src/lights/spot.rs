@@ -1,8 +1,6 @@
 //! A light at a point that shines into a cone.
 
-use bevy_color::LinearRgba;
-use bevy_ecs::component::Component;
-use bevy_transform::components::Transform;
+use crate::LinearRgba;
 
 use super::point::{Point, fields_at_a_position};
 use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView, PointLight};
@@ -26,8 +24,8 @@ use crate::record::{LightRecord, number};
 /// let torch = SpotLight::new(LinearRgba::WHITE).with_cutoff_degrees(25.0).with_inner_degrees(20.0).with_range(10.0);
 /// assert!(torch.validate().is_ok());
 /// ```
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
-#[require(Transform)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component), require(bevy_transform::components::Transform))]
 pub struct SpotLight {
     /// Colours, falloff and range. The cone weakens the ambient term only where `light.attenuate_ambient` is set.
     pub light: PointLight,

@@ -4,9 +4,9 @@ use bevy_app::App;
 use bevy_color::LinearRgba;
 use bevy_ecs::hierarchy::ChildOf;
 use bevy_ecs::world::World;
-use bevy_math::{Quat, Vec3};
 use bevy_transform::TransformPlugin;
 use bevy_transform::components::{GlobalTransform, Transform};
+use glam::{Quat, Vec3};
 use halfway_lighting::{
     DirectionalLight, GlobalAmbient, LightingPlugin, PointLight, Propagation, SpotLight, light_direction,
     light_position, propagation,

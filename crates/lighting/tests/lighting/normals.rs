@@ -1,6 +1,6 @@
 //! Normals under transforms.
 
-use bevy_math::{DMat3, DVec3};
+use glam::{DMat3, DVec3};
 use halfway_lighting::equations::vector::{cross, dot, length, normalize, scale};
 use halfway_lighting::equations::{normal_matrix, transform_normal};
 use proptest::prelude::*;

@@ -1,7 +1,7 @@
 //! From transforms and homogeneous coordinates to places.
 
-use bevy_math::{Quat, Vec3, Vec4};
 use bevy_transform::components::{GlobalTransform, Transform};
+use glam::{Quat, Vec3, Vec4};
 use halfway_lighting::homogeneous::{LightPlace, from_homogeneous};
 use halfway_lighting::{light_direction, light_position, rotation_along};
 

@@ -1,6 +1,6 @@
 //! Projections: rays, clip space and the frustum say the same of a point.
 
-use bevy_math::Vec3;
+use glam::Vec3;
 use halfway_lighting::equations::{Eye, ShadedPoint, view_vector};
 use halfway_lighting::{Camera, Lens, Projection, Viewer};
 use proptest::prelude::*;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use bevy_math::{Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use halfway_mesh::{Mesh, UvSphere};
 
 use super::glb;

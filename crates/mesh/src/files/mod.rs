@@ -8,6 +8,7 @@ mod ply;
 mod polygon;
 mod smf;
 mod source;
+mod srgb;
 mod stl;
 mod text;
 mod write;
@@ -42,7 +43,7 @@ use source::Source;
 /// Allocations are in proportion to the data in the file; no count in a header is believed.
 ///
 /// ```
-/// use bevy_math::Mat4;
+/// use glam::Mat4;
 /// use halfway_mesh::{Mesh, Model, Part, Teapot, load, write};
 ///
 /// let path = std::env::temp_dir().join(format!("teapot_{}.glb", std::process::id()));

@@ -1,6 +1,6 @@
 //! Polygons cut into triangles.
 
-use bevy_math::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// How many corners are tested for each corner of a polygon before the rest is cut without tests. Only polygons of ten
 /// thousand corners and more, or malicious ones, come near.

@@ -1,6 +1,6 @@
 //! STL, in ASCII and binary (Burns 1993, "Automated Fabrication", §6.5): triangles that share no vertices.
 
-use bevy_math::{Mat4, Vec3};
+use glam::{Mat4, Vec3};
 
 use super::LoadError;
 use super::source::{Reader, Source, stem};

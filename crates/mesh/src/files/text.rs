@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::str::FromStr;
 
-use bevy_math::Vec2;
+use glam::Vec2;
 
 use super::LoadError;
 use super::source::Reader;

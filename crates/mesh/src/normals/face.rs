@@ -1,6 +1,6 @@
 //! The normal of one triangle, and its weights.
 
-use bevy_math::{DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::NormalWeighting;
@@ -16,7 +16,7 @@ const DEGENERATE_HEIGHT: f64 = f32::EPSILON as f64;
 /// most 2⁻²³ of that edge; and where a coordinate is not finite. Safe at any scale of `f32`.
 ///
 /// ```
-/// use bevy_math::Vec3;
+/// use glam::Vec3;
 /// use halfway_mesh::face_normal;
 ///
 /// assert_eq!(face_normal(Vec3::ZERO, Vec3::X, Vec3::Y), Some(Vec3::Z));

@@ -1,6 +1,6 @@
 //! Fans: the parts into which creases cut the triangles around a vertex.
 
-use bevy_math::Vec3;
+use glam::Vec3;
 
 use super::face::face_normals;
 use super::split::split_normals;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use bevy_math::{DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::face::{Face, PARALLEL_MIN};

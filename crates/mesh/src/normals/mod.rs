@@ -13,6 +13,7 @@ pub use face::face_normal;
 pub(crate) use face::face_normals;
 pub(crate) use fans::{Fans, creased_normals};
 pub(crate) use means::vertex_normals;
+#[cfg(feature = "formats")]
 pub(crate) use split::{Smoothed, grouped_normals};
 
 /// How a mesh gets its normals.

@@ -1,6 +1,6 @@
 //! A mesh with other normals.
 
-use bevy_math::Vec3;
+use glam::Vec3;
 
 use super::{NormalReport, Normals, creased_normals, face_normals, vertex_normals};
 use crate::Mesh;

@@ -1,6 +1,6 @@
 //! Normals with more than one at a vertex: vertices are split between classes of corners.
 
-use bevy_math::Vec3;
+use glam::Vec3;
 
 use super::means::Means;
 use super::{NormalReport, NormalWeighting};
@@ -8,6 +8,7 @@ use crate::Mesh;
 use crate::numbering::Numbering;
 
 /// A mesh whose normals are computed together with those of others.
+#[cfg(feature = "formats")]
 pub(crate) struct Smoothed<'a> {
     pub(crate) mesh: &'a Mesh,
     /// The point of each vertex: vertices of one point, in whichever mesh, share a normal.
@@ -21,6 +22,7 @@ pub(crate) struct Smoothed<'a> {
 /// The triangles of one group share the mean of their normals at each point, across all the meshes; those of group 0
 /// are faceted. Vertices are split where groups meet, and the vertices of no triangle are left out. All meshes together
 /// have at most 2³² − 1 corners.
+#[cfg(feature = "formats")]
 pub(crate) fn grouped_normals(meshes: &[Smoothed], weighting: NormalWeighting) -> Vec<Mesh> {
     let (mut positions, mut points, mut indices, mut groups) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for smoothed in meshes {

@@ -1,6 +1,6 @@
 //! The points of a mesh at the centres of an image's texels.
 
-use bevy_math::{DVec2, Vec2};
+use glam::{DVec2, Vec2};
 
 use crate::Mesh;
 

@@ -1,6 +1,6 @@
 //! The connected components of a mesh, and their orientation.
 
-use bevy_math::{DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 use crate::edges::Edges;
 

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use bevy_math::Vec3;
+use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::Mesh;

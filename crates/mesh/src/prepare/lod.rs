@@ -7,7 +7,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use bevy_math::{Mat3, Quat, Vec3};
+use glam::{Mat3, Quat, Vec3};
 use rayon::prelude::*;
 
 use super::patches::{Site, part};

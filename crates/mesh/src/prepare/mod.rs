@@ -17,7 +17,7 @@ pub use report::MeshReport;
 pub use simplify::SimplifiedMesh;
 pub use weld::{Weld, WeldReport};
 
-use bevy_math::Vec3;
+use glam::Vec3;
 
 use crate::Mesh;
 use crate::numbering::Numbering;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use bevy_math::Vec3;
+use glam::Vec3;
 
 use crate::Mesh;
 

@@ -50,7 +50,7 @@ impl Mesh {
     /// [`with_normals`](Self::with_normals) makes new ones.
     ///
     /// ```
-    /// use bevy_math::Vec3;
+    /// use glam::Vec3;
     /// use halfway_mesh::Mesh;
     ///
     /// // Two triangles of opposite winding, and a degenerate one.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use bevy_math::Vec3;
+use glam::Vec3;
 
 use super::components::Components;
 use crate::edges::Edges;

@@ -12,7 +12,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use bevy_math::DVec3;
+use glam::DVec3;
 
 use super::weld::places;
 use crate::numbering::Numbering;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use bevy_math::Vec3;
+use glam::Vec3;
 
 use crate::numbering::Numbering;
 use crate::{Mesh, MeshError};
@@ -146,12 +146,12 @@ pub(super) fn places(positions: &[Vec3], distance: f32) -> Vec<u32> {
             let cell = (p / width).floor();
             let [low, high] = [-distance, distance].map(|reach| ((p + reach) / width).floor());
             let near = (0..8).find_map(|i| {
-                let is_high = bevy_math::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0);
+                let is_high = glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0);
                 // If both are one cell, it is searched once.
                 if (is_high & low.cmpeq(high)).any() {
                     return None;
                 }
-                let key = bevy_math::DVec3::select(is_high, high, low).to_array().map(|x| (x + 0.0).to_bits());
+                let key = glam::DVec3::select(is_high, high, low).to_array().map(|x| (x + 0.0).to_bits());
                 let mut owners = cells.get(&key)?.iter();
                 owners.find(|&&other| positions[other as usize].as_dvec3().distance(p) <= distance).copied()
             });

@@ -1,6 +1,6 @@
 //! Bézier patches of any degree, and polynomial ones.
 
-use bevy_math::DVec3;
+use glam::DVec3;
 
 use super::{Parameter, SurfaceError, check_coordinates};
 
@@ -11,7 +11,7 @@ use super::{Parameter, SurfaceError, check_coordinates};
 /// top.
 ///
 /// ```
-/// use bevy_math::DVec3;
+/// use glam::DVec3;
 /// use halfway_mesh::{BezierPatch, ParametricSurface, Tessellation};
 ///
 /// // Two rows of three points: a sheet that is bent upward in the middle.

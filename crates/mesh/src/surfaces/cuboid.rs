@@ -1,6 +1,6 @@
 //! A box.
 
-use bevy_math::{Vec2, Vec3};
+use glam::{Vec2, Vec3};
 
 use super::{SurfaceError, SurfaceField, grid_indices};
 use crate::Mesh;

@@ -1,6 +1,6 @@
 //! The flat disc.
 
-use bevy_math::DVec3;
+use glam::DVec3;
 
 use super::{SurfaceError, check_coordinates};
 
@@ -9,7 +9,7 @@ use super::{SurfaceError, check_coordinates};
 /// u runs from the middle to the rim, v around: where it faces along the Y axis from +X, toward +Z if it faces up.
 ///
 /// ```
-/// use bevy_math::DVec3;
+/// use glam::DVec3;
 /// use halfway_mesh::{Disc, ParametricSurface, Tessellation};
 ///
 /// let disc = Disc::new(DVec3::ZERO, DVec3::Y, 2.0)?.mesh(Tessellation::Count { rows: 1, columns: 64 })?;

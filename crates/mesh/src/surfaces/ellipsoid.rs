@@ -1,6 +1,6 @@
 //! The ellipsoid.
 
-use bevy_math::{DMat4, DVec3, Vec3};
+use glam::{DMat4, DVec3, Vec3};
 
 use super::parameter::{half_turn, turn, uv_at};
 use super::{Parameter, ParametricSurface, Quadric, SurfaceError, SurfacePiece, SurfacePoint, UvSphere, check_lengths};
@@ -11,7 +11,7 @@ use super::{Parameter, ParametricSurface, Quadric, SurfaceError, SurfacePiece, S
 /// c sin θ sin φ) with θ = πu and φ = 2πv.
 ///
 /// ```
-/// use bevy_math::Vec3;
+/// use glam::Vec3;
 /// use halfway_mesh::{Ellipsoid, ParametricSurface, Tessellation};
 ///
 /// let egg = Ellipsoid { radii: Vec3::new(1.0, 1.5, 1.0) }.mesh(Tessellation::ChordError(0.01))?;

@@ -1,6 +1,6 @@
 //! Heights over a rectangle.
 
-use bevy_math::{DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 use super::parameter::uv_at;
 use super::{

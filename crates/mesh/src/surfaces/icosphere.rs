@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use bevy_math::{DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 use super::{Quadric, SurfaceError, SurfaceField};
 use crate::Mesh;

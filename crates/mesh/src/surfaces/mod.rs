@@ -18,7 +18,7 @@ mod tessellate;
 
 use std::ops::RangeInclusive;
 
-use bevy_math::DVec3;
+use glam::DVec3;
 use thiserror::Error;
 
 pub use bezier::BezierPatch;

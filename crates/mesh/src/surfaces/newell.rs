@@ -5,7 +5,7 @@
 //! Teapot", IEEE Computer Graphics and Applications 7 (1), January 1987, pages 8–19, and the listing that accompanies
 //! it.
 
-use bevy_math::DVec3;
+use glam::DVec3;
 
 /// The symmetry that maps a patch to the next one of its part of the teapot.
 #[derive(Clone, Copy)]

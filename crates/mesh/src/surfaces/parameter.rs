@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bevy_math::{DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 /// A parameter from 0 to 1 with its complement.
 ///

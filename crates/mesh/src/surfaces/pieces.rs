@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bevy_math::DVec3;
+use glam::DVec3;
 
 use super::parameter::{turn, uv_at};
 use super::{BezierPatch, Disc, Parameter, ParametricSurface, SurfacePiece, SurfacePoint};

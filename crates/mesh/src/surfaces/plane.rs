@@ -1,6 +1,6 @@
 //! A flat square.
 
-use bevy_math::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use super::parameter::uv_at;
 use super::{Parameter, ParametricSurface, SurfaceError, SurfaceField, SurfacePiece, SurfacePoint, grid_indices};

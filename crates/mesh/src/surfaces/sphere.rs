@@ -1,6 +1,6 @@
 //! The sphere by longitude and latitude.
 
-use bevy_math::{DVec3, Vec2};
+use glam::{DVec3, Vec2};
 
 use super::parameter::{half_turn, turn};
 use super::{Parameter, Quadric, SurfaceError, SurfaceField};

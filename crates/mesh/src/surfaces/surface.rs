@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_math::{DMat4, DVec3, DVec4};
+use glam::{DMat4, DVec3, DVec4};
 
 use super::{BezierPatch, Disc, SurfaceError};
 
@@ -58,7 +58,7 @@ impl From<Quadric> for Surface {
 /// With p = (x, y, z, 1) the quadric is where f = pᵀ Q p = 0. f is negative inside, and its gradient points outward.
 ///
 /// ```
-/// use bevy_math::{DMat4, DVec3, DVec4};
+/// use glam::{DMat4, DVec3, DVec4};
 /// use halfway_mesh::Quadric;
 ///
 /// // x² + y² + z² − 1, the unit sphere; its upper half.

@@ -1,6 +1,6 @@
 //! The Utah teapot.
 
-use bevy_math::{DVec3, Vec2};
+use glam::{DVec3, Vec2};
 
 use super::newell::PATCHES;
 use super::tessellate::{Grids, Vertex, counts_for};

@@ -1,6 +1,6 @@
 //! Surfaces as functions of two parameters, and their meshes.
 
-use bevy_math::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use super::{Disc, Parameter, Surface, SurfaceError, SurfaceField, SurfacePiece, SurfacePoint};
 use crate::{Mesh, face_normal};
@@ -11,7 +11,7 @@ use crate::{Mesh, face_normal};
 /// v running left, u runs down: a texture that covers the whole surface has the coordinates (1 − v, u).
 ///
 /// ```
-/// use bevy_math::{DVec2, DVec3};
+/// use glam::{DVec2, DVec3};
 /// use halfway_mesh::{Parameter, ParametricSurface, SurfacePiece, SurfacePoint, Tessellation};
 ///
 /// /// A helicoid: a line that turns as it rises.

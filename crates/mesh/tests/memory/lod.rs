@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use bevy_math::Vec3;
+use glam::Vec3;
 use halfway_mesh::{Mesh, UvSphere};
 
 use crate::{ALLOCATOR, alone};

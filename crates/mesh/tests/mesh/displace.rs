@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use bevy_math::{DVec3, Vec2, Vec3, Vec4};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 use halfway_mesh::{Cuboid, Mesh, MeshError, NormalWeighting, Normals, Plane, Subdivision, UvSphere, Weld};
 
 /// A cube of eight vertices and edge 1.

@@ -7,7 +7,7 @@ mod make_assets;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use bevy_math::Vec3;
+use glam::Vec3;
 use halfway_mesh::{
     Format, GltfMaps, LoadError, LoadOptions, LoadProgress, Mesh, Model, MtlMaps, SourceLightKind, SourceMaterial,
     Teapot, load, load_bytes, load_with,

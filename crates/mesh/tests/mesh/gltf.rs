@@ -2,7 +2,7 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use bevy_math::{Mat4, Quat, Vec2, Vec3, Vec4};
+use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 use halfway_mesh::{
     AlphaMode, GltfMaps, LoadError, MetallicRoughness, Model, SourceCamera, SourceLightKind, SourceMaterial,
     SourceProjection, load,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
-use bevy_math::{Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use halfway_mesh::{Cuboid, LodGroup, LodHierarchy, Mesh, Plane, Subdivision, Teapot, UvSphere};
 use proptest::prelude::*;
 

@@ -1,8 +1,8 @@
 //! The mesh: invalid input, attributes, problems.
 
 use bevy_app::App;
-use bevy_math::{Vec2, Vec3};
 use bevy_transform::components::Transform;
+use glam::{Vec2, Vec3};
 use halfway_asset::Assets;
 use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshError, MeshPlugin, NormalWeighting, Normals, Plane, Problems, UvSphere};
 

@@ -1,6 +1,6 @@
 //! Normals: of faces, of vertices by every weighting, at any scale, and where they fail.
 
-use bevy_math::Vec3;
+use glam::Vec3;
 use halfway_mesh::{Mesh, NormalReport, NormalWeighting, Normals, UvSphere, face_normal};
 
 const WEIGHTINGS: [NormalWeighting; 4] =

@@ -3,7 +3,7 @@
 
 use std::f32::consts::{PI, TAU};
 
-use bevy_math::Vec3;
+use glam::Vec3;
 use halfway_mesh::{Cuboid, Mesh, NormalReport, NormalWeighting, Normals, UvSphere, Weld, face_normal};
 
 fn creased(angle: f32) -> Normals {

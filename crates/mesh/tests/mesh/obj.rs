@@ -1,6 +1,6 @@
 //! OBJ and MTL files.
 
-use bevy_math::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use halfway_mesh::{Model, MtlMaps, MtlMaterial, SourceMaterial, load};
 
 use crate::common::Folder;

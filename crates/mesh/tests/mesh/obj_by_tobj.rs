@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use bevy_math::{Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use halfway_mesh::{Model, load};
 
 use crate::common::Folder;

@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use bevy_math::{DVec2, Vec2, Vec3};
+use glam::{DVec2, Vec2, Vec3};
 use halfway_mesh::{Mesh, OcclusionBake, OcclusionError, OcclusionImage, Plane, UvSphere};
 
 fn baked(mesh: &Mesh, occluders: &[&Mesh], bake: OcclusionBake) -> OcclusionImage {

@@ -1,6 +1,6 @@
 //! PLY files, in ASCII and binary.
 
-use bevy_math::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use halfway_mesh::{Format, Model, load_bytes};
 
 fn load(bytes: impl AsRef<[u8]>) -> Model {

@@ -1,6 +1,6 @@
 //! Welding, repair, the report and simplification.
 
-use bevy_math::{Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use halfway_mesh::{
     Cuboid, Mesh, MeshError, Plane, RepairReport, SimplifiedMesh, Subdivision, UvSphere, Weld, WeldReport,
 };

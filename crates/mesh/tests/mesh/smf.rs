@@ -1,6 +1,6 @@
 //! SMF files.
 
-use bevy_math::{DVec3, Mat4, Vec2, Vec3, Vec4};
+use glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
 use halfway_mesh::{Model, NormalWeighting, Normals, load};
 
 use crate::common::Folder;

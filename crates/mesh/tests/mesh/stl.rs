@@ -1,6 +1,6 @@
 //! STL files, in ASCII and binary.
 
-use bevy_math::Vec3;
+use glam::Vec3;
 use halfway_mesh::{Format, Model, load_bytes};
 
 fn load(bytes: impl AsRef<[u8]>) -> Model {

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use bevy_math::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use halfway_mesh::{Cuboid, Mesh, Plane, SurfaceError, Teapot, UvSphere, face_normal};
 
 fn sphere(segments: u32, rings: u32) -> Mesh {

@@ -1,6 +1,6 @@
 //! Shared by the tests of surfaces.
 
-use bevy_math::DVec3;
+use glam::DVec3;
 use halfway_mesh::BezierPatch;
 
 /// p = (u, u² − u v + v³/2, v) turned so that its outward side is up: v runs against x.

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::{PI, TAU};
 
-use bevy_math::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use halfway_mesh::{
     BezierPatch, Capsule, Cone, Cylinder, Disc, Ellipsoid, HeightField, Hyperboloid, HyperboloidSheet, Icosphere, Mesh,
     Paraboloid, Parameter, ParametricSurface, Plane, Quadric, SurfacePiece, Teapot, Tessellation, Torus, UvSphere,
@@ -453,7 +453,7 @@ fn invalid_fields_are_refused_by_name() {
         ),
         (Disc::new(DVec3::ZERO, DVec3::ZERO, 1.0).map(drop), "Disc.normal: 0; a direction is expected"),
         (
-            Quadric::new(bevy_math::DMat4::IDENTITY, DVec3::ONE, DVec3::ZERO).map(drop),
+            Quadric::new(glam::DMat4::IDENTITY, DVec3::ONE, DVec3::ZERO).map(drop),
             "Quadric.min: 1; at most the max is expected",
         ),
     ];

@@ -1,6 +1,6 @@
 //! Patches and height fields against the definitions of what they are made of.
 
-use bevy_math::DVec3;
+use glam::DVec3;
 use halfway_mesh::{BezierPatch, HeightField, Parameter, ParametricSurface};
 
 use crate::surfaces_common::{cubic, scattered};

@@ -1,7 +1,7 @@
 //! Tangents.
 #![expect(clippy::float_cmp, reason = "w is 1 or −1")]
 
-use bevy_math::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use halfway_mesh::{Mesh, MeshError, Normals, UvSphere};
 
 /// A unit square in the plane z = 0 seen from +Z, its texture upright, scaled.

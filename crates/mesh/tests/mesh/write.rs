@@ -1,6 +1,6 @@
 //! Writers: what is written is read as the same.
 
-use bevy_math::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Mat4, Vec2, Vec3, Vec4};
 use halfway_mesh::{
     AlphaMode, Cuboid, GltfMaps, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight,
     SourceLightKind, SourceMaterial, SourceProjection, Teapot, WriteError, load, write, write_quantised,
@@ -182,7 +182,7 @@ fn quantised_meshes_are_read_within_their_error() {
     let path = folder.path().join("model.glb");
     let placed = Mat4::from_scale_rotation_translation(
         Vec3::new(1.0, -2.0, 1.0),
-        bevy_math::Quat::from_rotation_y(0.7),
+        glam::Quat::from_rotation_y(0.7),
         Vec3::new(5.0, 0.0, -3.0),
     );
     let mut model = of_parts(vec![part("teapot", teapot(), None), part("box", Cuboid::default().into(), None)]);

@@ -1,6 +1,7 @@
 //! A mesh made ready: cut into pieces whose vertices lie together.
 
 use crate::error::RasterError;
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// The most triangles of a piece.
@@ -28,6 +29,8 @@ pub struct Pieces {
     /// Corners as numbers of the piece's vertices.
     pub(crate) triangles: Vec<[u8; 3]>,
     index_count: u32,
+    /// Some triangles are in another order than in the list of indices.
+    reordered: bool,
     /// Of all.
     pub(crate) extent: PieceExtent,
 }
@@ -124,6 +127,68 @@ impl Pieces {
         Ok(pieces)
     }
 
+    /// Moves the vertices of a mesh whose triangles stay: `indices` is the list that these pieces were cut from. Sorts
+    /// nothing, so that it takes a fraction of the time of [`new`](Self::new). Returns whether it could: not where
+    /// triangles were [clustered](TriangleOrder::Clustered) within a run of more than 64, where the lists are others
+    /// than before, or where [`new`](Self::new) would refuse them. The pieces are of use only if it could.
+    pub fn move_to(&mut self, positions: &[[f32; 3]], lists: VertexLists, indices: &[u32]) -> bool {
+        let has = |list: &[Vec<f32>], given: bool| list[0].is_empty() != given;
+        let fits = !self.reordered
+            && self.index_count as usize == indices.len()
+            && has(&self.colors, !lists.colors.is_empty())
+            && has(&self.uvs, !lists.uvs.is_empty())
+            && has(&self.tangents, !lists.tangents.is_empty())
+            && check(positions, &lists, indices).is_ok();
+        let Some(vertices) = fits.then(|| self.vertices(indices)).flatten() else { return false };
+        let VertexLists { normals, colors, uvs, tangents } = lists;
+        let normals = if normals.is_empty() { &[[0.0; 3]][..] } else { normals };
+        rayon::join(
+            || {
+                rayon::join(
+                    || gather(&mut self.positions, positions, &vertices),
+                    || {
+                        gather(&mut self.normals, normals, &vertices);
+                    },
+                );
+                gather(&mut self.colors, colors, &vertices);
+                gather(&mut self.uvs, uvs, &vertices);
+                gather(&mut self.tangents, tangents, &vertices);
+                self.extent = PieceExtent::of(positions.iter().copied());
+            },
+            || {
+                self.each.par_iter_mut().with_min_len(16).for_each(|piece| {
+                    let own = piece.first_vertex as usize..(piece.first_vertex + piece.vertex_count) as usize;
+                    let triangles = piece.triangles.start as usize..piece.triangles.end as usize;
+                    let corners = &indices.as_chunks::<3>().0[triangles];
+                    let points = |corners: &[u32; 3]| corners.map(|corner| positions[corner as usize]);
+                    piece.extent = PieceExtent::of(vertices[own].iter().map(|&vertex| positions[vertex as usize]));
+                    piece.cone = cone(corners.iter().map(points));
+                    piece.opposite_normals = corners.iter().any(|corners| has_opposite_normals(normals, *corners));
+                });
+            },
+        );
+        true
+    }
+
+    /// Of each vertex of the pieces its number in the mesh, where triangles are in the order of the indices.
+    fn vertices(&self, indices: &[u32]) -> Option<Vec<u32>> {
+        let mut vertices = Vec::new();
+        reserve(&mut vertices, self.positions[0].len(), "a mesh's pieces").ok()?;
+        vertices.resize(self.positions[0].len(), 0);
+        for piece in &self.each {
+            let (first, count) = (piece.first_vertex as usize, piece.vertex_count as usize);
+            for triangle in piece.triangles.start as usize..piece.triangles.end as usize {
+                for (corner, &number) in self.triangles[triangle].iter().enumerate() {
+                    vertices[first + usize::from(number)] = indices[3 * triangle + corner];
+                }
+            }
+            // The rest repeats the last vertex.
+            let last = vertices[first + count - 1];
+            vertices[first + count..first + count.next_multiple_of(ALIGNED)].fill(last);
+        }
+        Some(vertices)
+    }
+
     /// The bytes of memory that its lists take.
     pub fn bytes(&self) -> u64 {
         let vectors = self.positions.iter().chain(&self.normals);
@@ -163,6 +228,24 @@ impl Pieces {
             .any(|piece| piece.cut.start < indices.start || piece.cut.end > indices.end);
         (!parted).then_some(first..end.max(first))
     }
+}
+
+/// Fills lists of coordinates with those of the numbered vertices; leaves empty ones empty. Of a list of one entry all
+/// vertices take that.
+fn gather<const N: usize>(lists: &mut [Vec<f32>; N], of: &[[f32; N]], vertices: &[u32]) {
+    for (axis, list) in lists.iter_mut().enumerate().filter(|(_, list)| !list.is_empty()) {
+        for (to, &vertex) in list.iter_mut().zip(vertices) {
+            *to = of[if of.len() == 1 { 0 } else { vertex as usize }][axis];
+        }
+    }
+}
+
+/// Whether a triangle's normals may cancel. While the products of all pairs are at least −0.49, the square of their
+/// mean, by weights u, v and w whose sum is 1, is u² + v² + w² − 0.98·(u·v + v·w + w·u) ≥ 0.0066 at least.
+fn has_opposite_normals(normals: &[[f32; 3]], corners: [u32; 3]) -> bool {
+    let [a, b, c] = corners.map(|corner| normals.get(corner as usize).copied().unwrap_or_default());
+    let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    dot(a, b).min(dot(b, c)).min(dot(c, a)) < -0.49
 }
 
 fn check(positions: &[[f32; 3]], lists: &VertexLists, indices: &[u32]) -> Result<(), RasterError> {
@@ -245,15 +328,6 @@ impl<'a> Builder<'a> {
         self.corners(triangle).map(|corner| self.positions[corner as usize])
     }
 
-    /// Whether a triangle's normals may cancel. While the products of all pairs are at least −0.49, the square of their
-    /// mean, by weights u, v and w whose sum is 1, is u² + v² + w² − 0.98·(u·v + v·w + w·u) ≥ 0.0066 at least.
-    fn has_opposite_normals(&self, triangle: u32) -> bool {
-        let normal = |corner: u32| self.lists.normals.get(corner as usize).copied().unwrap_or_default();
-        let [a, b, c] = self.corners(triangle).map(normal);
-        let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        dot(a, b).min(dot(b, c)).min(dot(c, a)) < -0.49
-    }
-
     fn cut(&mut self, pieces: &mut Pieces, cut: Range<u32>, order: TriangleOrder) -> Result<(), RasterError> {
         let triangles = cut.start / 3..cut.end / 3;
         self.order.clear();
@@ -263,6 +337,7 @@ impl<'a> Builder<'a> {
             reserve(&mut centers, triangles.len(), "a mesh's pieces")?;
             centers.extend(triangles.map(|triangle| (box_center(self.points(triangle)), triangle)));
             cluster(&mut centers);
+            pieces.reordered = true;
             self.order.extend(centers.iter().map(|&(_, triangle)| triangle));
         } else {
             self.order.extend(triangles);
@@ -333,7 +408,9 @@ impl<'a> Builder<'a> {
             triangles: end - of.len() as u32..end,
             extent,
             cone: cone(self.order[of.clone()].iter().map(|&triangle| self.points(triangle))),
-            opposite_normals: self.order[of].iter().any(|&triangle| self.has_opposite_normals(triangle)),
+            opposite_normals: self.order[of]
+                .iter()
+                .any(|&triangle| has_opposite_normals(self.lists.normals, self.corners(triangle))),
         });
         self.used.clear();
         Ok(())
@@ -356,26 +433,32 @@ impl PieceExtent {
         let center = [0, 1, 2].map(|axis| 0.5 * low[axis] + 0.5 * high[axis]);
         let from_center = |p: [f32; 3]| [0, 1, 2].map(|axis| f64::from(p[axis]) - f64::from(center[axis]));
         let rounded_up = |length: f64| (length * (1.0 + 1e-6)).min(f64::from(f32::MAX)) as f32;
-        let distance = |p| from_center(p).map(|x| x * x).iter().sum::<f64>().sqrt();
+        let distance2 = |p| from_center(p).map(|x| x * x).iter().sum::<f64>();
         let [below, above] = [low, high].map(from_center);
         Self {
             center,
-            radius: rounded_up(points.map(distance).fold(0.0, f64::max)),
+            radius: rounded_up(points.map(distance2).fold(0.0, f64::max).sqrt()),
             half: [0, 1, 2].map(|axis| rounded_up(above[axis].max(-below[axis]))),
         }
     }
 }
 
-/// The cone of the normals of some triangles, without those that have none.
-fn cone(triangles: impl Iterator<Item = [[f32; 3]; 3]> + Clone) -> Option<FaceCone> {
-    let normals = triangles.filter_map(|[a, b, c]| {
+/// The cone of the normals of up to 64 triangles, without those that have none.
+fn cone(triangles: impl Iterator<Item = [[f32; 3]; 3]>) -> Option<FaceCone> {
+    let mut normals = [[0.0; 3]; PIECE_TRIANGLES];
+    let mut count = 0;
+    for [a, b, c] in triangles {
         let edge = |p: [f32; 3]| [0, 1, 2].map(|axis| f64::from(p[axis]) - f64::from(a[axis]));
         let (e, f) = (edge(b), edge(c));
-        unit([e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]])
-    });
-    let sum = normals.clone().fold([0.0; 3], |sum, n| [0, 1, 2].map(|axis| sum[axis] + n[axis]));
+        if let Some(n) = unit([e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]]) {
+            normals[count] = n;
+            count += 1;
+        }
+    }
+    let normals = &normals[..count];
+    let sum = normals.iter().fold([0.0; 3], |sum, n| [0, 1, 2].map(|axis| sum[axis] + n[axis]));
     let axis = unit(sum)?;
-    let least = normals.map(|n| n[0] * axis[0] + n[1] * axis[1] + n[2] * axis[2]).fold(1.0, f64::min);
+    let least = normals.iter().map(|n| n[0] * axis[0] + n[1] * axis[1] + n[2] * axis[2]).fold(1.0, f64::min);
     // LaneFaces turned by more than this beyond the cone bound nothing; half of it is room for rounding to the pixels'
     // grid.
     let angle = least.clamp(-1.0, 1.0).acos() + 0.03;
@@ -422,6 +505,7 @@ fn cluster(triangles: &mut [([f32; 3], u32)]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec3;
     use halfway_mesh::{Mesh, Plane, UvSphere};
 
     fn cut(mesh: &Mesh) -> Pieces {
@@ -450,6 +534,36 @@ mod tests {
         found.sort_unstable();
         expected.sort_unstable();
         assert!(found == expected, "triangles were lost, repeated or turned");
+    }
+
+    #[test]
+    fn moved_pieces_are_those_of_the_moved_mesh() {
+        let mut mesh = Mesh::from(UvSphere { radius: 2.0, segments: 96, rings: 48 });
+        let mut triangles: Vec<_> = mesh.triangles().collect();
+        let runs = mesh.cut_into_patches(&mut triangles, PIECE_TRIANGLES);
+        let cuts: Vec<_> = runs.iter().map(|run| 3 * run.start as u32..3 * run.end as u32).collect();
+        let indices = triangles.as_flattened();
+        let made = |mesh: &Mesh, before: Option<Pieces>| {
+            let positions: Vec<_> = mesh.positions().iter().map(|&p| p.into()).collect();
+            let normals: Vec<_> = mesh.normals().iter().map(|&n| n.into()).collect();
+            let lists = VertexLists { normals: &normals, ..VertexLists::default() };
+            before.map_or_else(
+                || Pieces::new(&positions, lists, indices, &cuts, TriangleOrder::Clustered).expect("a sound mesh"),
+                |mut before| {
+                    assert!(before.move_to(&positions, lists, indices));
+                    before
+                },
+            )
+        };
+        let before = made(&mesh, None);
+        let stretched = mesh.positions().iter().map(|p| Vec3::new(p.x, p.y + (3.0 * p.x).sin(), 2.0 * p.z));
+        mesh.set_positions(stretched.collect()).expect("as many");
+        mesh.set_normals(mesh.normals().iter().map(|n| -*n).collect()).expect("as many");
+        let (moved, fresh) = (made(&mesh, Some(before.clone())), made(&mesh, None));
+        assert_eq!(format!("{moved:?}"), format!("{fresh:?}"));
+        assert_ne!(format!("{moved:?}"), format!("{before:?}"));
+        // Triangles that were clustered here have lost their order.
+        assert!(!cut(&mesh).move_to(&[[0.0; 3]; 3], VertexLists::default(), mesh.indices()));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use crate::cpu::error::raster_error;
 use bevy_ecs::prelude::*;
 use halfway_asset::AssetId;
 use halfway_frame::batch::batches::Batches;
-use halfway_frame::batch::drawn_meshes::DrawnMeshes;
+use halfway_frame::batch::drawn_meshes::{Before, DrawnMeshes};
 use halfway_frame::geometry::meshes::{Form, Geometries, both_uvs};
 use halfway_frame::geometry::patches::{MeshTriangles, Patches, Prepared};
 use halfway_frame::report::FrameReport;
@@ -24,9 +24,11 @@ pub(crate) fn make_ready(
     mut meshes: ResMut<MeshPieces>,
     mut report: ResMut<FrameReport>,
 ) {
-    meshes.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, _| {
+    meshes.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, before| {
         let prepared = geometry.pieces.clone().filter(|_| form == Form::default());
-        let pieces = match prepared.and_then(|prepared| prepared.downcast().ok()) {
+        let kept = prepared.and_then(|prepared| prepared.downcast().ok());
+        let kept = kept.or_else(|| moved(before, &geometry.drawn, indices, form));
+        let pieces = match kept {
             Some(pieces) => pieces,
             None => Arc::new(pieces(&geometry.drawn, &geometry.patches, indices, form).map_err(raster_error)?),
         };
@@ -52,6 +54,18 @@ pub(crate) fn of_levels(mesh: &Mesh, MeshTriangles { corners, patches, .. }: &Me
 fn pieces(source: &Mesh, patches: &Patches, indices: &[u32], form: Form) -> Result<Pieces, RasterError> {
     let cuts: Vec<_> = (0..patches.len() as u32).map(|patch| patches.indices(patch)).collect();
     let order = if form.ordered { TriangleOrder::Kept } else { TriangleOrder::Clustered };
+    with_vertices(source, form, |positions, lists| Pieces::new(positions, lists, indices, &cuts, order))
+}
+
+/// The pieces of the same triangles, with their vertices moved to those of a mesh; `None` where that cannot be done.
+fn moved(before: Before<Arc<Pieces>>, source: &Mesh, indices: &[u32], form: Form) -> Option<Arc<Pieces>> {
+    let Before::SameTriangles(mut pieces) = before else { return None };
+    let own = Arc::get_mut(&mut pieces)?;
+    with_vertices(source, form, |positions, lists| own.move_to(positions, lists, indices)).then_some(pieces)
+}
+
+/// Calls `then` with the vertices of a mesh, as they are drawn in a form.
+fn with_vertices<T>(source: &Mesh, form: Form, then: impl FnOnce(&[[f32; 3]], VertexLists) -> T) -> T {
     let [positions, normals] = [source.positions(), source.normals()].map(bytemuck::cast_slice);
     let colors = source.drawn_colors().filter(|_| form.colored).unwrap_or_default();
     let uvs = if form.mapped { both_uvs(source) } else { Vec::new() };
@@ -61,5 +75,5 @@ fn pieces(source: &Mesh, patches: &Patches, indices: &[u32], form: Form) -> Resu
         uvs: bytemuck::cast_slice(&uvs),
         tangents: source.tangents().filter(|_| form.tangents.is_some()).map_or(&[], bytemuck::cast_slice),
     };
-    Pieces::new(positions, lists, indices, &cuts, order)
+    then(positions, lists)
 }

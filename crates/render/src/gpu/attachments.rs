@@ -5,11 +5,11 @@ use crate::gpu::format::{drawn_format, headless_format, is_float};
 use crate::gpu::passes::policy::PicturePasses;
 use crate::gpu::shaders::picture::PicturePolicyRecord;
 use crate::gpu::surface::{Lost, SurfaceLost, SurfaceTarget};
-use crate::gpu::texture::TextureTarget;
+use crate::gpu::texture::{Load, TextureTarget};
 use crate::headless::Headless;
 use crate::picture::Pixels;
 use bevy_ecs::prelude::*;
-use bevy_math::UVec2;
+use bevy_math::{URect, UVec2};
 use halfway_frame::error::RenderError;
 use halfway_frame::report::FrameReport;
 use halfway_frame::times::FrameTimes;
@@ -33,7 +33,8 @@ pub(crate) struct Attachments {
     /// The headless picture; a surface brings its own.
     pub(crate) picture: Option<wgpu::Texture>,
     pub(crate) multisampled: Option<wgpu::TextureView>,
-    pub(crate) depth: wgpu::TextureView,
+    /// `None` where an engine gives its own.
+    depth: Option<wgpu::TextureView>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -44,6 +45,7 @@ struct Configuration {
     drawn: wgpu::TextureFormat,
     samples: Samples,
     headless: bool,
+    own_depth: bool,
 }
 
 /// The output of the shaders.
@@ -64,6 +66,17 @@ pub(crate) struct FramePicture {
     /// The view that the passes over the finished picture write, where there are any.
     pub(crate) finished: Option<wgpu::TextureView>,
     pub(crate) delivery: Delivery,
+    pub(crate) part: FramePart,
+}
+
+/// The place of a frame among what its target holds: all of it, but in an engine's texture.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FramePart {
+    pub(crate) load: Load,
+    /// In pixels of the target.
+    pub(crate) viewport: Option<URect>,
+    /// The engine's depth.
+    pub(crate) depth: Option<wgpu::TextureView>,
 }
 
 /// The destination of a frame.
@@ -101,6 +114,11 @@ impl Target {
         self.attachments.as_ref()
     }
 
+    /// The depth of a frame: the engine's, or its own.
+    pub(crate) fn depth<'a>(&'a self, frame: &'a FramePicture) -> Option<&'a wgpu::TextureView> {
+        frame.part.depth.as_ref().or(self.attachments.as_ref()?.depth.as_ref())
+    }
+
     /// The window's picture, if the frame has one that is not shown yet. The frame is over then.
     pub(crate) fn take_surface_texture(&mut self) -> Option<wgpu::SurfaceTexture> {
         match self.frame.take_if(|frame| frame.delivery != Delivery::Encode)?.delivery {
@@ -122,7 +140,7 @@ pub(crate) fn measure(
     mut size: ResMut<PictureSize>,
     mut waits: ResMut<WaitsForLevels>,
 ) {
-    if let Some(own) = texture.map(|texture| texture.size).or(surface.map(|surface| surface.size())) {
+    if let Some(own) = texture.map(|texture| texture.drawn_size()).or(surface.map(|surface| surface.size())) {
         size.0 = own;
         waits.0 = false;
     }
@@ -151,9 +169,16 @@ pub(crate) fn prepare(
         return;
     }
     let camera = view.camera.unwrap_or_default();
+    let (size, part) = match &texture {
+        Some(texture) => {
+            let TextureTarget { load, viewport, depth, .. } = &**texture;
+            (texture.size, FramePart { load: *load, viewport: *viewport, depth: depth.clone() })
+        }
+        None => (size.0, FramePart::default()),
+    };
     let limit = gpu.device.limits().max_texture_dimension_2d;
-    if size.0.max_element() > limit {
-        let needed = u64::from(size.0.max_element());
+    if size.max_element() > limit {
+        let needed = u64::from(size.max_element());
         report.errors.push(RenderError::TooLarge {
             what: "the picture's longer side, in pixels,".into(),
             needed,
@@ -177,7 +202,7 @@ pub(crate) fn prepare(
     let encodes = camera.encoding == Encoding::Srgb;
     let (format, given, delivery) = match (texture, surface) {
         (Some(texture), _) => {
-            if let Err(error) = texture.check(&gpu, &Camera { samples, ..camera }, blends) {
+            if let Err(error) = texture.check(&gpu, &camera, (samples, blends)) {
                 report.errors.push(error);
                 return;
             }
@@ -202,10 +227,11 @@ pub(crate) fn prepare(
             }
         }
     };
-    let output = target.attach(&gpu, &camera, size.0, (format, drawn), given.is_none());
+    let own = (given.is_none(), part.depth.is_none());
+    let output = target.attach(&gpu, &camera, size, (format, drawn), own);
     values.0 = Some(output.values().under(camera.intensity));
     let Some(view) = given.or_else(|| target.picture().map(view_of)) else { return };
-    report.bytes_uploaded += target.begin(&gpu, &camera, (output, drawn), view, delivery);
+    report.bytes_uploaded += target.begin(&gpu, &camera, (output, drawn), view, (delivery, part));
     report.picture_passes = target.passes.as_ref().map_or(0, PicturePasses::count);
 }
 
@@ -217,10 +243,10 @@ impl Target {
         camera: &Camera,
         size: UVec2,
         (format, drawn): (wgpu::TextureFormat, Option<wgpu::TextureFormat>),
-        headless: bool,
+        (headless, own_depth): (bool, bool),
     ) -> ShaderOutput {
         let drawn = drawn.unwrap_or(format);
-        let made_as = Configuration { size, format, drawn, samples: camera.samples, headless };
+        let made_as = Configuration { size, format, drawn, samples: camera.samples, headless, own_depth };
         if self.attachments.as_ref().is_none_or(|attachments| attachments.made_as != made_as) {
             self.attachments = Some(Attachments::new(gpu, made_as));
         }
@@ -236,18 +262,19 @@ impl Target {
         camera: &Camera,
         (output, drawn): (ShaderOutput, Option<wgpu::TextureFormat>),
         view: wgpu::TextureView,
-        delivery: Delivery,
+        (delivery, part): (Delivery, FramePart),
     ) -> u64 {
         let before = self.passes.take();
         let record = PicturePolicyRecord::new(camera.intensity, output.encoded);
         let (Some(drawn), Some(record), Some(attachments)) = (drawn, record, self.attachments()) else {
-            self.frame = Some(FramePicture { output, view, finished: None, delivery });
+            self.frame = Some(FramePicture { output, view, finished: None, delivery, part });
             return 0;
         };
         let formats = [drawn, output.format];
         let (passes, sent) = PicturePasses::prepare(before, gpu, attachments.made_as.size, formats, record);
         let output = ShaderOutput { format: drawn, encoded: false, ..output };
-        self.frame = Some(FramePicture { output, view: passes.drawn().clone(), finished: Some(view), delivery });
+        let (drawn, finished) = (passes.drawn().clone(), Some(view));
+        self.frame = Some(FramePicture { output, view: drawn, finished, delivery, part });
         self.passes = Some(passes);
         sent
     }
@@ -259,7 +286,7 @@ fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
 
 impl Attachments {
     fn new(gpu: &Gpu, made_as: Configuration) -> Self {
-        let Configuration { size, format, drawn, samples, headless } = made_as;
+        let Configuration { size, format, drawn, samples, headless, own_depth } = made_as;
         let texture = |label, format, sample_count, usage| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -278,7 +305,7 @@ impl Attachments {
             made_as,
             picture: headless.then(|| texture("picture", format, 1, attachment | wgpu::TextureUsages::COPY_SRC)),
             multisampled: (samples == Samples::Four).then(|| view(texture("samples", drawn, 4, attachment))),
-            depth: view(texture("depth", DEPTH_FORMAT, samples.count(), attachment)),
+            depth: own_depth.then(|| view(texture("depth", DEPTH_FORMAT, samples.count(), attachment))),
         }
     }
 }

@@ -9,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The open graphics device. Inserted by the window, by an engine that has one ([`Gpu::from_existing`]), or opened
+/// The open graphics device. Inserted by the window, by an engine that has one ([`Gpu::from_device`]), or opened
 /// headless by the first frame.
 ///
 /// Another `Gpu` may be inserted between any two frames: the next one is drawn on it, from what the App holds.
@@ -19,10 +19,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// window for its surface and else by the next frame, which is drawn.
 #[derive(Resource, Clone)]
 pub struct Gpu {
-    /// The instance the adapter came from; surfaces are made with it.
-    pub instance: wgpu::Instance,
-    /// The adapter that was picked.
-    pub adapter: wgpu::Adapter,
+    /// The instance the adapter came from; surfaces are made with it. `None` where a device came alone.
+    pub instance: Option<wgpu::Instance>,
+    /// The adapter that was picked. `None` where a device came alone.
+    pub adapter: Option<wgpu::Adapter>,
     /// The logical device.
     pub device: wgpu::Device,
     /// The queue all work is submitted to.
@@ -76,17 +76,38 @@ impl Gpu {
     /// The device's callbacks stay the engine's: what goes wrong outside of any call, and the loss of the device, goes
     /// to whatever it has set with `on_uncaptured_error` and `set_device_lost_callback`. After a loss it inserts
     /// another `Gpu`. [`TextureTarget`](crate::TextureTarget) has a frame drawn by an encoder of the engine's own.
+    ///
+    /// [`from_existing`](Self::from_existing) takes the adapter, too.
+    pub fn from_device(device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        // What a device does not tell is taken at its worst.
+        let unfit = unfit(&device.adapter_info(), wgpu::DownlevelFlags::all());
+        Self::new((None, None), device, queue, unfit)
+    }
+
+    /// The same as [`from_device`](Self::from_device), with the instance and the adapter that the device came from. A
+    /// [`SurfaceTarget`](crate::SurfaceTarget) needs them; on a device with `TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES`
+    /// the adapter tells what more than the guaranteed it can do with formats; and OpenGL before 4.2 without compute
+    /// shaders, which draws what is right, is known by it.
     pub fn from_existing(
         instance: wgpu::Instance,
         adapter: wgpu::Adapter,
         device: wgpu::Device,
         queue: wgpu::Queue,
     ) -> Self {
+        let unfit = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags);
+        Self::new((Some(instance), Some(adapter)), device, queue, unfit)
+    }
+
+    fn new(
+        (instance, adapter): (Option<wgpu::Instance>, Option<wgpu::Adapter>),
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+        unfit: Option<String>,
+    ) -> Self {
         static DEVICES: AtomicU64 = AtomicU64::new(0);
         let id = DEVICES.fetch_add(1, Ordering::Relaxed);
-        let unfit = unfit(&adapter.get_info(), adapter.get_downlevel_capabilities().flags).map(Arc::from);
         let notices = Arc::new(Mutex::new(Notices { failure: None, loss: None }));
-        Self { instance, adapter, device, queue, id, unfit, notices }
+        Self { instance, adapter, device, queue, id, unfit: unfit.map(Arc::from), notices }
     }
 
     /// Takes note of what the device says by itself.
@@ -105,17 +126,17 @@ impl Gpu {
     /// Whether what has images or a solid can be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes in
     /// draws that read both.
     pub fn lights_images_by_environments(&self) -> bool {
-        let info = self.adapter.get_info();
+        let info = self.device.adapter_info();
         !(info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe"))
     }
 
     /// The features of a texture format on the device.
     pub(crate) fn format_features(&self, format: wgpu::TextureFormat) -> wgpu::TextureFormatFeatures {
         let features = self.device.features();
-        if features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES) {
-            self.adapter.get_texture_format_features(format)
-        } else {
-            format.guaranteed_format_features(features)
+        let adapter = self.adapter.as_ref();
+        match adapter.filter(|_| features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)) {
+            Some(adapter) => adapter.get_texture_format_features(format),
+            None => format.guaranteed_format_features(features),
         }
     }
 
@@ -170,17 +191,17 @@ impl Gpu {
 
     /// Which vertex of a triangle gives what is not interpolated.
     pub(crate) fn provoking_vertex(&self) -> ProvokingVertex {
-        ProvokingVertex::of(self.adapter.get_info().backend)
+        ProvokingVertex::of(self.device.adapter_info().backend)
     }
 
     /// Whether the adapter draws on the CPU.
     pub fn is_software(&self) -> bool {
-        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+        self.device.adapter_info().device_type == wgpu::DeviceType::Cpu
     }
 
     /// One line for people: the adapter's name, its backend, and whether it is software.
     pub fn describe(&self) -> String {
-        describe_adapter(&self.adapter.get_info())
+        describe_adapter(&self.device.adapter_info())
     }
 }
 

@@ -21,11 +21,14 @@ impl SurfaceTarget {
     /// A target of `size` physical pixels on `surface`, presented without tearing.
     ///
     /// # Errors
-    /// [`RenderError::Device`] when the adapter cannot present to the surface.
+    /// [`RenderError::Device`] when the adapter cannot present to the surface, or the [`Gpu`] was made without one.
     pub fn new(gpu: &Gpu, surface: wgpu::Surface<'static>, size: UVec2) -> Result<Self, RenderError> {
-        let capabilities = surface.get_capabilities(&gpu.adapter);
+        let adapter = gpu.adapter.as_ref().ok_or_else(|| {
+            RenderError::Device("a window takes the adapter; expected a `Gpu` of `Gpu::from_existing`".into())
+        })?;
+        let capabilities = surface.get_capabilities(adapter);
         let config = surface
-            .get_default_config(&gpu.adapter, size.x.max(1), size.y.max(1))
+            .get_default_config(adapter, size.x.max(1), size.y.max(1))
             .ok_or_else(|| RenderError::Device(format!("{} cannot present to this window", gpu.describe())))?;
         Ok(Self { surface, gpu: gpu.id(), formats: capabilities.formats, config, stale: true, acquired: false })
     }

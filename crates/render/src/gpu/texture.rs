@@ -1,9 +1,10 @@
 //! A texture of an engine's own.
 
+use crate::gpu::attachments::DEPTH_FORMAT;
 use crate::gpu::device::Gpu;
 use crate::gpu::format::is_float;
 use bevy_ecs::prelude::{Res, ResMut, Resource};
-use bevy_math::UVec2;
+use bevy_math::{URect, UVec2};
 use halfway_frame::error::RenderError;
 use halfway_frame::report::FrameReport;
 use halfway_frame::values::FrameValues;
@@ -17,15 +18,12 @@ use halfway_lighting::{Camera, Encoding, Samples};
 /// # use bevy_app::App;
 /// # use bevy_math::UVec2;
 /// # use halfway_render::{Gpu, RenderError, TextureTarget, encode_frame, wgpu};
-/// # struct Engine { instance: wgpu::Instance, adapter: wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue }
-/// # fn draw(engine: Engine, texture: &wgpu::Texture, app: &mut App) -> Result<(), RenderError> {
-/// let Engine { instance, adapter, device, queue } = engine;
-/// app.insert_resource(Gpu::from_existing(instance, adapter, device.clone(), queue.clone()));
-/// app.insert_resource(TextureTarget {
-///     view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
-///     format: texture.format(),
-///     size: UVec2::new(texture.width(), texture.height()),
-/// });
+/// # type Texture = wgpu::Texture;
+/// # fn draw(device: wgpu::Device, queue: wgpu::Queue, texture: &Texture, app: &mut App) -> Result<(), RenderError> {
+/// app.insert_resource(Gpu::from_device(device.clone(), queue.clone()));
+/// let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+/// let size = UVec2::new(texture.width(), texture.height());
+/// app.insert_resource(TextureTarget::new(view, texture.format(), size));
 /// app.update();
 /// let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
 /// encode_frame(app.world(), &mut encoder)?;
@@ -33,6 +31,36 @@ use halfway_lighting::{Camera, Encoding, Samples};
 /// # Ok(())
 /// # }
 /// ```
+///
+/// # In a scene of the engine's own
+/// With [`Load::Keep`] and the engine's depth, lit meshes go into a scene that the engine has drawn: its surfaces hide
+/// them, and they hide its surfaces.
+///
+/// ```no_run
+/// # use bevy_math::{URect, UVec2};
+/// # use halfway_render::{Load, TextureTarget, wgpu};
+/// # fn target(color: wgpu::TextureView, depth: wgpu::TextureView) -> TextureTarget {
+/// TextureTarget {
+///     load: Load::Keep,
+///     depth: Some(depth),
+///     // The left half.
+///     viewport: Some(URect::new(0, 0, 400, 600)),
+///     ..TextureTarget::new(color, wgpu::TextureFormat::Rgba8UnormSrgb, UVec2::new(800, 600))
+/// }
+/// # }
+/// ```
+///
+/// The depth is the one that bevy draws with: reversed, with an infinite far plane. Under a perspective camera a surface
+/// at the distance z along the view has the depth near/z, with the distance of the camera's near plane: 1 at that plane,
+/// 0 infinitely far away, and the greater depth wins. So the engine has to draw with the same near plane, the comparison
+/// `Greater` or `GreaterEqual`, and, where it begins the frame, a depth cleared to 0.
+/// [`OverView::clip_from_world`](crate::OverView::clip_from_world) is the matrix to use. An orthographic camera needs its
+/// far plane for that: without one, depth spans the visible objects.
+///
+/// These do not go together, and are [`RenderError::BadTarget`] with what to change: [`Load::Keep`] and four samples a
+/// pixel, since the texture has one; a depth with another number of samples than the camera's; a policy of
+/// [`Intensity`](halfway_lighting::Intensity) other than `Clamp`, which passes over the whole picture, and [`Load::Keep`]
+/// or a viewport. The CPU draws into no texture.
 #[derive(Resource, Clone, Debug)]
 pub struct TextureTarget {
     /// One level of a texture of one sample a pixel, with `wgpu::TextureUsages::RENDER_ATTACHMENT`, of the device of
@@ -47,6 +75,37 @@ pub struct TextureTarget {
     pub format: wgpu::TextureFormat,
     /// Width and height of the view in pixels.
     pub size: UVec2,
+    /// Whether the frame begins with what the texture and the depth hold. Default [`Load::Clear`].
+    pub load: Load,
+    /// The rectangle that the frame is drawn into, in pixels from the top left, inside of the texture and not empty. Its
+    /// shape is the camera's. Default `None`: the whole texture.
+    pub viewport: Option<URect>,
+    /// The depth of the engine's scene: one level of a texture of the format `Depth32Float`, of the size of the view,
+    /// with as many samples a pixel as the camera has, and `wgpu::TextureUsages::RENDER_ATTACHMENT`. It is read, and the
+    /// frame's is stored in it. Default `None`: a depth of the frame's own.
+    pub depth: Option<wgpu::TextureView>,
+}
+
+/// How a frame begins in a [`TextureTarget`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Load {
+    /// The whole texture becomes the camera's background, and the depth infinitely far, beside the viewport too.
+    #[default]
+    Clear,
+    /// The frame is drawn over what the texture holds, where the depth that is given does not hide it.
+    Keep,
+}
+
+impl TextureTarget {
+    /// The whole view of this format and size in pixels, cleared.
+    pub fn new(view: wgpu::TextureView, format: wgpu::TextureFormat, size: UVec2) -> Self {
+        Self { view, format, size, load: Load::Clear, viewport: None, depth: None }
+    }
+
+    /// Width and height of what is drawn into.
+    pub(crate) fn drawn_size(&self) -> UVec2 {
+        self.viewport.map_or(self.size, |URect { min, max }| max.saturating_sub(min))
+    }
 }
 
 /// Says that the CPU cannot draw into a device's texture, and has it draw nothing.
@@ -66,13 +125,21 @@ pub(crate) fn refuse_on_cpu(
 impl TextureTarget {
     /// # Errors
     /// [`RenderError::BadTarget`] where a frame cannot be drawn as the camera and the objects ask.
-    pub(crate) fn check(&self, gpu: &Gpu, camera: &Camera, blends: bool) -> Result<(), RenderError> {
-        let reason = self.misfit().or_else(|| self.missing(gpu, camera.samples, blends)).or_else(|| {
+    ///
+    /// `samples` are averaged in it, and objects are blended in it where it `blends`: not where a policy follows.
+    pub(crate) fn check(
+        &self,
+        gpu: &Gpu,
+        camera: &Camera,
+        (samples, blends): (Samples, bool),
+    ) -> Result<(), RenderError> {
+        let reason = self.misfit().or_else(|| self.missing(gpu, samples, blends));
+        let reason = reason.or_else(|| self.clash(camera)).or_else(|| {
             let is_linear = self.format.is_srgb() || is_float(self.format);
             match camera.encoding {
                 Encoding::Raw if self.format.is_srgb() => Some("the camera's encoding is raw, and the format's sRGB"),
                 Encoding::Srgb if blends && !is_linear => Some("objects are blended, which takes an sRGB format"),
-                Encoding::Srgb if camera.samples == Samples::Four && !is_linear => {
+                Encoding::Srgb if samples == Samples::Four && !is_linear => {
                     Some("four samples are averaged, which takes an sRGB format")
                 }
                 _ => None,
@@ -86,18 +153,52 @@ impl TextureTarget {
     fn misfit(&self) -> Option<&'static str> {
         use wgpu::TextureFormat::{Bgra8Unorm, Rgba8Unorm};
         let texture = self.view.texture();
-        let has_level = (0..texture.mip_level_count()).any(|level| {
-            let size = texture.size().mip_level_size(level, wgpu::TextureDimension::D2);
-            (size.width, size.height) == (self.size.x, self.size.y)
-        });
         if ![Bgra8Unorm, Rgba8Unorm].contains(&self.format.remove_srgb_suffix()) && !is_float(self.format) {
             Some("expected Rgba8Unorm or Bgra8Unorm, either also as sRGB, Rgba16Float or Rgba32Float")
         } else if texture.sample_count() != 1 {
             Some("its texture has more than one sample a pixel")
         } else if !texture.usage().contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
             Some("its texture lacks the usage RENDER_ATTACHMENT")
-        } else if !has_level {
+        } else if !has_level(texture, self.size) {
             Some("its texture has no level of the target's size")
+        } else {
+            None
+        }
+    }
+
+    /// What of it does not go with the rest of it, or with the camera.
+    fn clash(&self, camera: &Camera) -> Option<&'static str> {
+        let is_part = self.viewport.is_some() || self.load == Load::Keep;
+        if self.viewport.is_some_and(|viewport| viewport.max.cmpgt(self.size).any()) {
+            Some("its viewport reaches beyond its size")
+        } else if is_part && camera.intensity.acts_on_pictures() {
+            Some(
+                "the camera's intensity passes over the whole picture; with `Load::Keep` or a viewport expected \
+                 `Intensity::Clamp`",
+            )
+        } else if self.load == Load::Keep && camera.samples == Samples::Four {
+            Some(
+                "it keeps what its texture holds, of which there is one sample a pixel, and the camera takes four; \
+                 expected `Samples::One` or `Load::Clear`",
+            )
+        } else {
+            self.depth.as_ref().and_then(|depth| self.misfit_of(depth.texture(), camera.samples))
+        }
+    }
+
+    /// The reason why a texture cannot be its depth.
+    fn misfit_of(&self, depth: &wgpu::Texture, samples: Samples) -> Option<&'static str> {
+        if depth.format() != DEPTH_FORMAT {
+            Some("its depth has another format than Depth32Float")
+        } else if depth.sample_count() != samples.count() {
+            Some(match samples {
+                Samples::One => "its depth has several samples a pixel, and the camera one; expected `Samples::Four`",
+                Samples::Four => "its depth has one sample a pixel, and the camera four; expected `Samples::One`",
+            })
+        } else if !depth.usage().contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
+            Some("its depth lacks the usage RENDER_ATTACHMENT")
+        } else if !has_level(depth, self.size) {
+            Some("its depth has no level of the target's size")
         } else {
             None
         }
@@ -119,4 +220,11 @@ impl TextureTarget {
             None
         }
     }
+}
+
+fn has_level(texture: &wgpu::Texture, size: UVec2) -> bool {
+    (0..texture.mip_level_count()).any(|level| {
+        let level = texture.size().mip_level_size(level, wgpu::TextureDimension::D2);
+        (level.width, level.height) == (size.x, size.y)
+    })
 }

@@ -1,5 +1,7 @@
 //! `cargo xtask check`.
 
+use std::collections::BTreeSet;
+
 use clap::{Args, ValueEnum};
 
 use crate::cargo::{cargo, duration, printed, root, step};
@@ -26,7 +28,8 @@ enum Check {
     Lints,
     /// The documentation builds without warnings
     Documentation,
-    /// The library builds without a window, and without wgpu draws a picture
+    /// The library builds without a window, and without wgpu draws a picture; its parts without the ECS build from few
+    /// crates
     Smallest,
 }
 
@@ -87,11 +90,54 @@ impl Check {
                     "--lib",
                 ])?;
                 own(&|| without_wgpu(&root))?;
+                for part in PARTS {
+                    by_cargo(&[&["check", "--release", "--lib"], &part.choice()[..]].concat())?;
+                    own(&|| part.has_few_crates())?;
+                }
                 let draw = ["run", "--release", "-p", "halfway", "--no-default-features", "--example", "first_picture"];
                 let into = ["--", "--headless", "out/first_picture.png", "--size", "64x48"];
                 by_cargo(&[&draw[..], &into].concat())
             }
         }
+    }
+}
+
+/// A crate without its default features, and the number of crates it may consist of, itself included.
+struct Part {
+    name: &'static str,
+    features: &'static str,
+    most_crates: usize,
+}
+
+/// The crates that serve without an ECS.
+const PARTS: [Part; 3] = [
+    Part { name: "halfway_lighting", features: "", most_crates: 12 },
+    Part { name: "halfway_mesh", features: "", most_crates: 18 },
+    Part { name: "halfway_mesh", features: "formats", most_crates: 33 },
+];
+
+impl Part {
+    fn choice(&self) -> [&str; 5] {
+        ["-p", self.name, "--no-default-features", "--features", self.features]
+    }
+
+    fn has_few_crates(&self) -> Result {
+        let tree = ["tree", "-e", "normal", "--prefix", "none", "--no-dedupe"];
+        let tree = printed(&mut cargo([&tree[..], &self.choice()].concat()))?;
+        let tree = String::from_utf8_lossy(&tree);
+        let crates: BTreeSet<&str> = tree.lines().filter(|line| !line.is_empty()).collect();
+        if crates.len() <= self.most_crates {
+            return Ok(());
+        }
+        let listed: Vec<_> = crates.iter().map(|line| format!("    {line}")).collect();
+        let with = if self.features.is_empty() { String::new() } else { format!(" with {}", self.features) };
+        Err(Failure::new(format!(
+            "{}{with} consists of {} crates; at most {} are expected:\n{}",
+            self.name,
+            crates.len(),
+            self.most_crates,
+            listed.join("\n")
+        )))
     }
 }
 
@@ -102,4 +148,19 @@ fn without_wgpu(root: &std::path::Path) -> Result {
     let tree = String::from_utf8_lossy(&printed(&mut cargo(tree))?).into_owned();
     let found = tree.lines().find(|line| ["wgpu", "naga", "winit"].iter().any(|name| line.starts_with(name)));
     found.map_or(Ok(()), |line| Err(Failure::new(format!("halfway without its features depends on {line}"))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_without_the_ecs_have_few_crates() {
+        for part in PARTS {
+            part.has_few_crates().unwrap();
+        }
+        let refused = Part { most_crates: 5, ..PARTS[0] }.has_few_crates().unwrap_err().to_string();
+        assert!(refused.starts_with("halfway_lighting consists of 12 crates; at most 5 are expected:\n"), "{refused}");
+        assert!(refused.contains("\n    glam v0."), "{refused}");
+    }
 }

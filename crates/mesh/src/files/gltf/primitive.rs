@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use bevy_math::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use gltf::Primitive;
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};

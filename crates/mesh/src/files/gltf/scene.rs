@@ -1,6 +1,6 @@
 //! The node tree: the world transforms of meshes and lights.
 
-use bevy_math::{DMat4, DQuat, DVec3, Mat4, Vec4};
+use glam::{DMat4, DQuat, DVec3, Mat4, Vec4};
 use gltf::camera::{Camera, Projection};
 use gltf::khr_lights_punctual::{Kind, Light};
 use gltf::scene::Transform;

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use bevy_math::{Mat4, Vec2, Vec3};
+use glam::{Mat4, Vec2, Vec3};
 
 use crate::classes::Classes;
 use crate::files::LoadError;

@@ -6,11 +6,11 @@ mod mtl;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-use bevy_color::Srgba;
-use bevy_math::Vec3;
+use glam::Vec3;
 
 use self::assemble::{Draft, ObjVertices};
 use super::source::{ModelFolder, Source};
+use super::srgb::decoded;
 use super::text::{Skipped, Statement, Statements, abridged};
 use super::{LoadError, polygon};
 use crate::{Model, SourceMaterial};
@@ -124,7 +124,7 @@ impl Obj {
         let (numbers, count) = statement.numbers::<7>(&[3, 4, 6, 7], "`v` and three numbers are")?;
         let [x, y, z, r, g, b, _] = numbers;
         if count >= 6 {
-            let linear = Vec3::new(r, g, b).to_array().map(Srgba::gamma_function);
+            let linear = Vec3::new(r, g, b).to_array().map(decoded);
             if !linear.iter().all(|x| x.is_finite()) {
                 return Err(statement.unexpected("a colour of three numbers from 0 to 1 is"));
             }

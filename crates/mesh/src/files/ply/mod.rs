@@ -3,12 +3,12 @@
 mod header;
 mod values;
 
-use bevy_color::Srgba;
-use bevy_math::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Mat4, Vec2, Vec3, Vec4};
 
 use self::header::{Element, Property};
 use self::values::{ElementProperty, Values};
 use super::source::{Source, stem};
+use super::srgb::decoded;
 use super::text::abridged;
 use super::{LoadError, polygon};
 use crate::{Mesh, Model, Part};
@@ -138,7 +138,7 @@ impl PlyContent {
             uvs.push(Vec2::new(u as f32, (1.0 - v) as f32));
         }
         if let Some(colors) = &mut self.colors {
-            colors.push(Vec3::from_array([r, g, b].map(|x| Srgba::gamma_function(x as f32))).extend(alpha as f32));
+            colors.push(Vec3::from_array([r, g, b].map(|x| decoded(x as f32))).extend(alpha as f32));
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use bevy_math::{Mat4, Vec2, Vec3};
+use glam::{Mat4, Vec2, Vec3};
 
 use crate::files::LoadError;
 use crate::numbering::Numbering;

@@ -4,14 +4,14 @@
 mod assemble;
 mod scope;
 
-use bevy_color::Srgba;
-use bevy_math::Vec3;
+use glam::Vec3;
 
 use self::assemble::{Binding, SmfContent};
 use self::scope::Scopes;
 use super::LoadError;
 use super::polygon;
 use super::source::{Source, stem};
+use super::srgb::decoded;
 use super::text::{Skipped, Statement, Statements};
 use crate::Model;
 
@@ -159,7 +159,7 @@ impl Smf {
 
     fn color(&mut self, statement: &Statement) -> Result<(), LoadError> {
         let (rgb, _) = statement.numbers::<3>(&[3], "`c` and three numbers are")?;
-        let linear = rgb.map(Srgba::gamma_function);
+        let linear = rgb.map(decoded);
         if !linear.iter().all(|x| x.is_finite()) {
             return Err(statement.unexpected("`c` and three numbers from 0 to 1 are"));
         }

@@ -1,6 +1,6 @@
 //! Scopes: the numbering and the transform of vertices between `begin` and `end`.
 
-use bevy_math::{DMat3, DMat4, DVec3, DVec4, Vec3};
+use glam::{DMat3, DMat4, DVec3, DVec4, Vec3};
 
 use crate::files::LoadError;
 use crate::files::text::{Skipped, Statement};

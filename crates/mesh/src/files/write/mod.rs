@@ -50,7 +50,7 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
 /// a position moved, in model space, and a sentence for each thing that the format cannot hold.
 ///
 /// ```
-/// use bevy_math::Mat4;
+/// use glam::Mat4;
 /// use halfway_mesh::{Mesh, Model, Part, Teapot, write_quantised};
 ///
 /// let path = std::env::temp_dir().join(format!("quantised_{}.glb", std::process::id()));

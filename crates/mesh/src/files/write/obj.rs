@@ -4,10 +4,9 @@ use std::collections::HashSet;
 use std::io::{self, Write};
 use std::path::Path;
 
-use bevy_color::Srgba;
-
 use super::file::{WriteError, replace};
 use super::placed::{Placed, lost_in_text, upward};
+use crate::files::srgb::encoded;
 use crate::{Mesh, Model, MtlMaterial, SourceMaterial};
 
 /// Writes an object for each part, and an MTL file where there are materials.
@@ -64,7 +63,7 @@ fn write_part(file: &mut impl Write, mesh: &Mesh, placed: &Placed, first: &mut [
         match mesh.colors() {
             None => writeln!(file, "v {} {} {}", p.x, p.y, p.z)?,
             Some(colors) => {
-                let [r, g, b] = colors[i].truncate().to_array().map(Srgba::gamma_function_inverse);
+                let [r, g, b] = colors[i].truncate().to_array().map(encoded);
                 writeln!(file, "v {} {} {} {r} {g} {b}", p.x, p.y, p.z)?;
             }
         }

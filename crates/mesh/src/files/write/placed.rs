@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use bevy_math::{DMat3, Mat4, Vec3};
+use glam::{DMat3, Mat4, Vec3};
 
 use super::file::WriteError;
 use crate::{Model, Part};

@@ -1,6 +1,6 @@
 //! Vertices as integers of 16 bits.
 
-use bevy_math::{DMat4, DVec3};
+use glam::{DMat4, DVec3};
 
 use crate::Mesh;
 

@@ -3,11 +3,10 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use bevy_color::Srgba;
-
 use super::file::{WriteError, replace};
 use super::placed::{Placed, lost_in_text, upward};
 use crate::Model;
+use crate::files::srgb::encoded;
 
 /// Writes all parts as one object: vertices and triangles, then the normals, and the colours and texture coordinates
 /// that any part has.
@@ -47,10 +46,7 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
             writeln!(file, "bind c vertex")?;
             for part in parts {
                 for i in 0..part.mesh.positions().len() {
-                    let [r, g, b] = part
-                        .mesh
-                        .colors()
-                        .map_or([1.0; 3], |c| c[i].truncate().to_array().map(Srgba::gamma_function_inverse));
+                    let [r, g, b] = part.mesh.colors().map_or([1.0; 3], |c| c[i].truncate().to_array().map(encoded));
                     writeln!(file, "c {r} {g} {b}")?;
                 }
             }

@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 use bevy_math::{Vec3, Vec4};
 use halfway_asset::AssetId;
 use halfway_frame::batch::batches::Batches;
-use halfway_frame::batch::drawn_meshes::DrawnMeshes;
+use halfway_frame::batch::drawn_meshes::{Before, DrawnMeshes};
 use halfway_frame::error::RenderError;
 use halfway_frame::geometry::meshes::{Form, Geometries, both_uvs};
 use halfway_frame::report::FrameReport;
@@ -40,31 +40,32 @@ pub(crate) fn upload(
     mut buffers: ResMut<MeshBuffers>,
     mut report: ResMut<FrameReport>,
 ) {
-    buffers.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, there| {
+    buffers.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, before| {
         let source = &geometry.drawn;
         // With images go colors, white where there are none.
         let white = || vec![Vec4::ONE; source.positions().len()];
         let colors = source.drawn_colors().filter(|_| form.colored).or_else(|| form.mapped.then(white));
         let uvs = form.mapped.then(|| both_uvs(source));
         let tangents = source.tangents().filter(|_| form.tangents.is_some());
-        match there {
+        match before {
             _ if form.flat => {
                 let vertices = (source.positions(), colors.as_deref(), uvs.as_deref());
                 let mut flat = FlatMesh::new(vertices, indices.as_chunks().0);
                 gpu.provoking_vertex().place(&mut flat.indices);
                 let attributes = bytemuck::cast_slice(&flat.attributes);
                 let vertices = (&flat.positions[..], attributes, flat.colors.as_deref(), flat.uvs.as_deref(), None);
-                MeshBuffer::new(&gpu, vertices, &flat.indices)
+                MeshBuffer::new(&gpu, vertices, Indices::New(&flat.indices))
             }
             // The vertices of levels are those of the mesh.
-            Some(there) => there.with_indices(&gpu, indices),
-            None => {
+            Before::SameVertices(before) => before.with_indices(&gpu, indices),
+            before => {
                 let attributes = bytemuck::cast_slice(source.normals());
-                MeshBuffer::new(
-                    &gpu,
-                    (source.positions(), attributes, colors.as_deref(), uvs.as_deref(), tangents),
-                    indices,
-                )
+                let vertices = (source.positions(), attributes, colors.as_deref(), uvs.as_deref(), tangents);
+                let indices = match before {
+                    Before::SameTriangles(before) => Indices::Kept(before.indices),
+                    _ => Indices::New(indices),
+                };
+                MeshBuffer::new(&gpu, vertices, indices)
             }
         }
     });
@@ -72,6 +73,13 @@ pub(crate) fn upload(
 
 /// Positions, attributes, colors, texture coordinates and tangents.
 type VertexSlices<'a> = (&'a [Vec3], &'a [u8], Option<&'a [Vec4]>, Option<&'a [Vec4]>, Option<&'a [Vec4]>);
+
+/// The triangles of a mesh.
+enum Indices<'a> {
+    New(&'a [u32]),
+    /// Those of the same mesh before its vertices moved.
+    Kept(wgpu::Buffer),
+}
 
 impl MeshBuffers {
     pub(crate) fn get(&self, id: AssetId<Mesh>, form: Form) -> Option<&MeshBuffer> {
@@ -88,7 +96,7 @@ impl MeshBuffer {
     fn new(
         gpu: &Gpu,
         (positions, attributes, colors, uvs, tangents): VertexSlices,
-        indices: &[u32],
+        indices: Indices,
     ) -> Result<(Self, u64), RenderError> {
         let list = |label, bytes: &[u8]| buffer(gpu, label, bytes, wgpu::BufferUsages::VERTEX);
         let colors = colors.map(|colors| list("colors", bytemuck::cast_slice(colors)));
@@ -96,18 +104,26 @@ impl MeshBuffer {
         let tangents = tangents.map(|tangents| list("tangents", bytemuck::cast_slice(tangents)));
         let short = positions.len() < usize::from(u16::MAX);
         let index_format = if short { wgpu::IndexFormat::Uint16 } else { wgpu::IndexFormat::Uint32 };
+        let (indices, sent) = match indices {
+            Indices::New(indices) => {
+                let indices = index_buffer(gpu, indices, index_format)?;
+                let sent = indices.size();
+                (indices, sent)
+            }
+            Indices::Kept(indices) => (indices, 0),
+        };
         let buffers = Self {
             positions: buffer(gpu, "positions", bytemuck::cast_slice(positions), wgpu::BufferUsages::VERTEX)?,
             attributes: buffer(gpu, "attributes", attributes, wgpu::BufferUsages::VERTEX)?,
             colors: colors.transpose()?,
             uvs: uvs.transpose()?,
             tangents: tangents.transpose()?,
-            indices: index_buffer(gpu, indices, index_format)?,
+            indices,
             index_format,
         };
         let more =
             buffers.colors.iter().chain(&buffers.uvs).chain(&buffers.tangents).map(wgpu::Buffer::size).sum::<u64>();
-        let bytes = buffers.positions.size() + buffers.attributes.size() + more + buffers.indices.size();
+        let bytes = buffers.positions.size() + buffers.attributes.size() + more + sent;
         Ok((buffers, bytes))
     }
 

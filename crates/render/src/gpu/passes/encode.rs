@@ -1,15 +1,17 @@
 //! Draw and Deliver: the pass is encoded, submitted and presented.
 
-use crate::gpu::attachments::{Attachments, Delivery, FramePicture, Target};
+use crate::gpu::attachments::{Delivery, FramePicture, Target};
 use crate::gpu::device::Gpu;
 use crate::gpu::draw::meshes::MeshBuffers;
 use crate::gpu::draw::upload::Buffers;
 use crate::gpu::passes::ScenePasses;
 use crate::gpu::passes::over::OverPasses;
 use crate::gpu::pipelines::cache::Pipelines;
+use crate::gpu::texture::Load;
 use crate::gpu::timer::GpuTimer;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
+use bevy_math::URect;
 use halfway_frame::batch::batches::Batches;
 use halfway_frame::error::RenderError;
 use halfway_frame::passes::{Passes, Phase};
@@ -32,7 +34,7 @@ pub(crate) fn draw(
     mut timer: Option<ResMut<GpuTimer>>,
     mut report: ResMut<FrameReport>,
 ) {
-    let (Some(frame), Some(attachments)) = (&target.frame, target.attachments()) else { return };
+    let Some(frame) = &target.frame else { return };
     if frame.delivery == Delivery::Encode {
         return;
     }
@@ -48,7 +50,9 @@ pub(crate) fn draw(
     {
         let timing = timer.as_mut().and_then(|timer| timer.begin(&gpu));
         let [first, last] = around(timing, frame.finished.is_some());
-        let mut pass = begin(&mut encoder, frame, attachments, view.camera.unwrap_or_default(), first);
+        let Some(mut pass) = begin(&mut encoder, (&target, frame), view.camera.unwrap_or_default(), first) else {
+            return;
+        };
         let left_out = scene.record(&mut pass);
         let unsaid = unsaid(left_out, &report);
         report.errors.extend(unsaid);
@@ -87,13 +91,14 @@ fn finish(
     }
 }
 
+/// Begins the pass of the scene; `None` without attachments.
 fn begin<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
-    frame: &FramePicture,
-    attachments: &Attachments,
+    (target, frame): (&Target, &FramePicture),
     camera: Camera,
     timestamp_writes: TimestampWrites<'_>,
-) -> wgpu::RenderPass<'a> {
+) -> Option<wgpu::RenderPass<'a>> {
+    let (attachments, depth) = (target.attachments()?, target.depth(frame)?);
     let LinearRgba { red, green, blue, .. } = camera.background;
     let [r, g, b] = [red, green, blue].map(|linear| {
         let linear = f64::from(linear);
@@ -104,23 +109,38 @@ fn begin<'a>(
         Some(samples) => (samples, Some(&frame.view), wgpu::StoreOp::Discard),
         None => (&frame.view, None, wgpu::StoreOp::Store),
     };
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+    let part = &frame.part;
+    let keeps = part.load == Load::Keep;
+    // Reversed depth: the far end is 0. One of the frame's own begins anew in each, and nobody reads it afterwards.
+    let (clear_depth, store_depth) = match &part.depth {
+        Some(_) => (!keeps, wgpu::StoreOp::Store),
+        None => (true, wgpu::StoreOp::Discard),
+    };
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("scene"),
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
             view,
             depth_slice: None,
             resolve_target,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store },
+            ops: wgpu::Operations { load: if keeps { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(clear) }, store },
         })],
-        // Reversed depth: the far end is 0.
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &attachments.depth,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            view: depth,
+            depth_ops: Some(wgpu::Operations {
+                load: if clear_depth { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load },
+                store: store_depth,
+            }),
             stencil_ops: None,
         }),
         timestamp_writes,
         ..Default::default()
-    })
+    });
+    if let Some(URect { min, max }) = part.viewport {
+        let [width, height] = (max - min).to_array();
+        pass.set_viewport(min.x as f32, min.y as f32, width as f32, height as f32, 0.0, 1.0);
+        pass.set_scissor_rect(min.x, min.y, width, height);
+    }
+    Some(pass)
 }
 
 /// The error of draws that are left out where there is none yet.
@@ -145,7 +165,8 @@ pub(crate) fn present(
 }
 
 /// Draws the frame that the render schedule has made for a [`TextureTarget`](crate::TextureTarget) by an encoder of the
-/// engine's own, which must come from the device of the world's [`Gpu`]. The pass clears the texture and draws over it.
+/// engine's own, which must come from the device of the world's [`Gpu`]. The pass begins as the
+/// target's [`Load`](crate::Load) says.
 ///
 /// The data of the pass is on its way already: submit the encoder on the queue of that `Gpu`, before the render schedule
 /// runs again. Until then a frame can be encoded more than once. [`GpuTimer`] does not time it.
@@ -158,7 +179,7 @@ pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result
     let ready = || {
         let target = world.get_resource::<Target>()?;
         let frame = target.frame.as_ref().filter(|frame| frame.delivery == Delivery::Encode)?;
-        Some((target, frame, target.attachments()?, world.get_resource::<View>()?.camera.unwrap_or_default()))
+        Some((target, frame, world.get_resource::<View>()?.camera.unwrap_or_default()))
     };
     let made = || {
         let (batches, meshes) = (world.get_resource::<Batches>()?, world.get_resource::<MeshBuffers>()?);
@@ -166,11 +187,12 @@ pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result
         let (list, over) = (world.get_resource::<Passes>()?, world.get_resource::<OverPasses>());
         Some(ScenePasses { list, batches, meshes, pipelines, buffers, over })
     };
-    let (Some((target, frame, attachments, camera)), Some(scene)) = (ready(), made()) else {
+    let none = || {
         let first = world.get_resource::<FrameReport>().and_then(|report| report.errors.first());
-        return Err(first.cloned().unwrap_or(RenderError::NoFrame));
+        first.cloned().unwrap_or(RenderError::NoFrame)
     };
-    let mut pass = begin(encoder, frame, attachments, camera, None);
+    let (Some((target, frame, camera)), Some(scene)) = (ready(), made()) else { return Err(none()) };
+    let mut pass = begin(encoder, (target, frame), camera, None).ok_or_else(none)?;
     let left_out = scene.record(&mut pass);
     drop(pass);
     finish(encoder, (scene.list, target), frame, None);

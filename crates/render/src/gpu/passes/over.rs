@@ -71,7 +71,7 @@ pub struct OverView<'a> {
     pub clip_from_world: Mat4,
     /// The camera and its matrices in f64, for scenes far from the origin.
     pub view: &'a View,
-    /// Width and height of the picture in pixels.
+    /// Width and height in pixels of the picture, or of the viewport that a [`TextureTarget`](crate::TextureTarget) has.
     pub size: UVec2,
 }
 
