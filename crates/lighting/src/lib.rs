@@ -26,15 +26,15 @@
 //!
 //! # What is here
 //! - Components: the lights, [`Material`] (with [presets](Material::PRESETS)) and [`BackMaterial`], [`Shading`],
-//!   [`Reflectance`], [`Faces`], [`Blend`], [`Mask`], [`Visibility`], [`Tolerance`], [`VertexColors`]; the resources
-//!   [`GlobalAmbient`] and
-//!   [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
+//!   [`Reflectance`], [`Faces`], [`AlphaMode`], [`Visibility`], [`Tolerance`], [`VertexColors`]; the resources
+//!   [`GlobalAmbient`] and [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
 //! - [`lights`]: the kinds of light, a file each: component, maths, bound, record, WGSL and fields.
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`record`]: lights, materials and instances as whatever draws reads them.
+//! - [`Choices`]: the names of shadings, reflectances and intensity policies, listed once.
 //! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
 //! - [`Shown`], [`propagation`]: what is hidden; whether transforms are propagated.
 //! - [`homogeneous`]: light positions as four coordinates.
@@ -58,9 +58,11 @@
 // Powers and the functions of angles only by `equations::Transcendental`: see clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod alpha;
 mod ambient;
 pub mod bounds;
 mod camera;
+mod choices;
 pub mod equations;
 mod field;
 mod frequency;
@@ -81,8 +83,10 @@ mod tolerance;
 mod vertex_colors;
 mod visibility;
 
+pub use alpha::AlphaMode;
 pub use ambient::GlobalAmbient;
 pub use camera::{Camera, Encoding, Samples};
+pub use choices::{Choice, Choices};
 pub use field::{Described, Field, FieldPlace, FieldValue};
 pub use frequency::Frequency;
 pub use intensity::Intensity;
@@ -94,7 +98,7 @@ pub use place::{light_direction, light_position, light_up, rotation_along};
 pub use plugin::LightingPlugin;
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
-pub use shading::{Blend, Faces, Mask, Reflectance, Shading, Terms, Viewer};
+pub use shading::{Faces, Reflectance, Shading, Terms, Viewer};
 pub use tolerance::{Tolerance, ViewTolerance};
 pub use vertex_colors::VertexColors;
 pub use visibility::{Shown, Visibility};

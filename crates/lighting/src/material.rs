@@ -61,7 +61,7 @@ pub struct Material {
     pub shininess: f32,
     #[doc = meaning!(opacity)]
     ///
-    /// 0 to 1; blended is what has [`crate::Blend`]. Default 1.
+    /// 0 to 1; [`AlphaMode`](crate::AlphaMode) says what one below 1 does. Default 1.
     pub opacity: f32,
 }
 

@@ -13,7 +13,7 @@ use bevy_ecs::component::Component;
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum VertexColors {
     /// They multiply the ambient and diffuse reflectance, and the opacity where the object is blended
-    /// ([`Blend`](crate::Blend)); on both sides.
+    /// ([`AlphaMode`](crate::AlphaMode)); on both sides.
     #[default]
     Multiply,
     /// They do nothing, and cost nothing.

@@ -25,7 +25,7 @@ use halfway_frame::{FramePlugin, ReadCamera};
 ///
 /// Each error of a frame is logged once by the `log` crate (target `halfway_render::errors`; a window says them
 /// itself), and so is each warning: an opacity that is not shown without
-/// [`Blend`](halfway_lighting::Blend), and why a picture shows nothing ([`why_empty`](crate::why_empty)).
+/// [`AlphaMode::Blend`](halfway_lighting::AlphaMode::Blend), and why a picture shows nothing ([`why_empty`](crate::why_empty)).
 ///
 /// Brings [`FramePlugin`] and the plugins of meshes, lighting and textures. May be added before or after other plugins,
 /// and to an App that has
