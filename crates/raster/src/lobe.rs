@@ -6,6 +6,7 @@ use crate::power::{Exponent, Power};
 use fearless_simd::prelude::*;
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::HALFWAY_MIN;
+use halfway_lighting::record::MaterialRecord;
 
 /// Inputs of the highlights of points from the surface.
 pub(crate) trait PointLobe<S: Simd>: Copy {
@@ -22,11 +23,11 @@ pub(crate) struct Gloss {
 }
 
 impl Gloss {
-    /// One of this exponent.
-    pub(crate) fn new(reflectance: Reflectance, exponent: f32) -> Self {
+    /// Those of one side.
+    pub(crate) fn new(reflectance: Reflectance, side: &MaterialRecord) -> Self {
         let exponent = match reflectance {
-            Reflectance::Phong => Exponent::new(exponent),
-            Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => Exponent::new(exponent).halved(),
+            Reflectance::Phong => Exponent::new(side.shininess),
+            Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => Exponent::new(side.shininess).halved(),
         };
         Self { reflectance, exponent }
     }

@@ -129,7 +129,7 @@ impl Reflecting<'_> {
     fn record(&self, ambient: Vec3) -> SurfaceRecord {
         let [front, back] = self.sides().map(|side| {
             let (coefficients, painted) = (Coefficients::from(side), self.is_painted());
-            MaterialRecord::new(&coefficients, side.opacity, self.reflectance, ambient, painted)
+            MaterialRecord::new(&coefficients, self.reflectance, ambient, painted)
         });
         SurfaceRecord { front, back, ..SurfaceRecord::default() }
     }
