@@ -301,7 +301,7 @@ impl<S: Simd> MappedPixels<'_, S> {
         let side = state.side(look.pass, back);
         let (mut exponents, mut factors) = (splat(simd, side.shininess), splat(simd, 1.0));
         let changes = maps.changes_exponents();
-        let mut axial = AxialGloss::none(simd, state.reflectance);
+        let mut axial = AxialGloss::none(simd, state.gloss(back));
         for lane in 0..lanes::<S>() {
             let Some(pixel) = self.pixel(lane, look.pass, maps) else { continue };
             let seen = pixel.normals(state);
