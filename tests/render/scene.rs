@@ -250,7 +250,7 @@ pub(crate) fn material() -> Material {
         specular: LinearRgba::rgb(0.40, 0.60, 0.50),
         emission: LinearRgba::rgb(0.02, 0.01, 0.03),
         shininess: 19.5,
-        opacity: 1.0,
+        ..Material::DEFAULT
     }
 }
 
@@ -262,7 +262,7 @@ pub(crate) fn other_material() -> Material {
         specular: LinearRgba::rgb(0.55, 0.35, 0.25),
         emission: LinearRgba::rgb(0.01, 0.04, 0.02),
         shininess: 8.0,
-        opacity: 1.0,
+        ..Material::DEFAULT
     }
 }
 

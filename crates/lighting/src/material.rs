@@ -150,7 +150,15 @@ impl Default for Material {
 
 /// The material of back faces, where they are drawn ([`crate::Faces`]) and differ from the front.
 ///
-/// Without it back faces take the entity's [`Material`].
+/// Without it back faces take the entity's [`Material`]. It is a component of its own, since few objects have one.
+///
+/// ```
+/// use bevy_ecs::world::World;
+/// use halfway_lighting::{BackMaterial, Faces, Material};
+///
+/// let mut world = World::new();
+/// world.spawn((Material::BRASS, BackMaterial(Material::COPPER), Faces::Both));
+/// ```
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct BackMaterial(pub Material);
 

@@ -52,11 +52,10 @@ pub(crate) fn tell_errors(
     }
 }
 
+type Opacity = (Entity, &'static Material, Option<&'static AlphaMode>, Option<&'static Name>);
+
 /// Logs how many materials have an opacity that nothing shows.
-pub(crate) fn tell_of_opacity(
-    objects: Query<(Entity, &Material, Option<&AlphaMode>, Option<&Name>), (With<Mesh3d>, Changed<Material>)>,
-    mut told: ResMut<Told>,
-) {
+pub(crate) fn tell_of_opacity(objects: Query<Opacity, (With<Mesh3d>, Changed<Material>)>, mut told: ResMut<Told>) {
     let is_opaque = |alpha: Option<&AlphaMode>| alpha.is_none_or(|alpha| *alpha == AlphaMode::Opaque);
     let mut hidden = objects.iter().filter(|(_, material, alpha, _)| material.opacity < 1.0 && is_opaque(*alpha));
     let Some((entity, _, _, name)) = hidden.next() else { return };

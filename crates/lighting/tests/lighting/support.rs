@@ -47,7 +47,7 @@ pub(crate) fn distinct_material(shininess: f32) -> Material {
         specular: LinearRgba::rgb(0.875, 1.0, 0.0625),
         emission: LinearRgba::rgb(0.03125, 0.0, 0.015_625),
         shininess,
-        opacity: 1.0,
+        ..Material::DEFAULT
     }
 }
 
