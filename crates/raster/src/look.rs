@@ -1,8 +1,8 @@
 //! Inputs of shading from the frame.
 
 use crate::pass::Pass;
+use crate::screen::Screen;
 use crate::state::State;
-use crate::vertices::Screen;
 
 /// Inputs of shading a tile from the frame.
 #[derive(Clone, Copy)]

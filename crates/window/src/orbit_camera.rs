@@ -11,7 +11,7 @@ use bevy_input::{ButtonInput, InputPlugin, InputSystems};
 use bevy_math::{Vec2, Vec3};
 use bevy_time::{Real, Time, TimePlugin, TimeSystems};
 use bevy_transform::components::Transform;
-use halfway_lighting::Camera;
+use halfway_lighting::{Camera, Projection};
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// A camera that mouse and keys move around a target; needs [`OrbitCameraPlugin`].
@@ -63,8 +63,9 @@ impl OrbitCamera {
         self.orbit = self.start;
     }
 
-    /// Moves by what the user asked for; `fov_y` is the camera's vertical field of view.
-    fn apply(&mut self, wish: &Wish, fov_y: f32) {
+    /// Moves by what the user asked for, under the camera's projection; returns that of the moved camera.
+    fn apply(&mut self, wish: &Wish, projection: Projection) -> Projection {
+        let before = self.orbit.distance;
         if wish.reset {
             self.reset();
         }
@@ -73,12 +74,13 @@ impl OrbitCamera {
         }
         if wish.pan != Vec2::ZERO {
             // The height of the picture at the target: what is there follows the pointer.
-            let height = 2.0 * self.orbit.distance * (fov_y * 0.5).tan();
+            let height = projection.height_at(self.orbit.distance);
             self.orbit.pan(-wish.pan.x * height, wish.pan.y * height);
         }
         if wish.zoom != 0.0 {
             self.zoom(wish.zoom.exp());
         }
+        projection.moved(before, self.orbit.distance)
     }
 }
 
@@ -88,7 +90,7 @@ impl OrbitCamera {
 /// |---|---|
 /// | left drag | turns: half a turn over the height of the [`DragArea`] |
 /// | right, middle or Shift + left drag | pans: what is at the target follows the pointer |
-/// | wheel | zooms, a tenth nearer or farther a line |
+/// | wheel | zooms, a tenth nearer or farther a line; an orthographic picture shows a tenth less or more |
 /// | arrow keys | turn, 90° a second |
 /// | + and − | zoom, by e a second |
 /// | Home, R | back to the start |
@@ -229,7 +231,7 @@ fn drive(
     mut input: Input,
     area: Res<DragArea>,
     time: Res<Time<Real>>,
-    mut cameras: Query<(&mut OrbitCamera, &mut Transform, Option<&Camera>)>,
+    mut cameras: Query<(&mut OrbitCamera, &mut Transform, Option<&mut Camera>)>,
 ) {
     let wish = input.wish(time.delta_secs(), area.0);
     for (mut orbit, mut transform, camera) in &mut cameras {
@@ -239,7 +241,13 @@ fn drive(
             orbit.shown = Some(orbit.orbit);
         }
         if wish != Wish::default() {
-            orbit.apply(&wish, camera.map_or(Camera::default().fov_y, |camera| camera.fov_y));
+            let projection = camera.as_ref().map_or_else(Projection::default, |camera| camera.projection);
+            let moved = orbit.apply(&wish, projection);
+            if let Some(mut camera) = camera
+                && moved != projection
+            {
+                camera.projection = moved;
+            }
         }
         if orbit.shown != Some(orbit.orbit) {
             transform.translation = orbit.orbit.eye();

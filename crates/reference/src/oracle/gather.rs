@@ -32,6 +32,8 @@ pub(super) struct OracleScene {
     pub(super) ambient: Color,
     pub(super) lights: Vec<Light<f64>>,
     pub(super) surroundings: Option<OracleSurroundings>,
+    /// From the nearest to the farthest object between the near and the far plane.
+    pub(super) depth_span: f64,
     /// In the order in which they are drawn: opaque ones as they were spawned, then blended ones, the farthest first.
     pub(super) solids: Vec<Solid>,
 }
@@ -43,11 +45,32 @@ impl OracleScene {
         let (ambient, lights) = lights(world, &seen.view)?;
         let surroundings = OracleSurroundings::gather(world, &seen.view)?;
         let solids = solids(world, &seen)?;
-        let viewer = equations::Eye::in_eye_space(seen.camera.viewer);
+        let depth_span = depth_span(&seen.view, &solids);
+        let viewer = seen.camera.eye();
         let Camera { background, samples, intensity, .. } = seen.camera;
         let background = rgb(background);
-        Ok(Self { view: seen.view, viewer, background, samples, intensity, ambient, lights, surroundings, solids })
+        Ok(Self {
+            view: seen.view,
+            viewer,
+            background,
+            samples,
+            intensity,
+            ambient,
+            lights,
+            surroundings,
+            depth_span,
+            solids,
+        })
     }
+}
+
+/// From the nearest to the farthest of all corners, as far as the near and the far plane leave them. Renderers take
+/// spheres around the objects, which are larger: hence twice as much.
+fn depth_span(view: &PictureView, solids: &[Solid]) -> f64 {
+    let depths = || solids.iter().flat_map(|solid| &solid.corners).map(|corner| -corner.z);
+    let nearest = depths().fold(f64::INFINITY, f64::min).max(view.near());
+    let farthest = depths().fold(f64::NEG_INFINITY, f64::max).min(view.far());
+    2.0 * (farthest - nearest).max(0.0)
 }
 
 fn require_propagation(world: &mut World) -> Result<(), OracleError> {

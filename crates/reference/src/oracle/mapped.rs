@@ -145,7 +145,7 @@ impl OracleScene {
         let solid = &self.solids[hit.solid];
         let map = solid.maps.as_ref()?.slots[kind as usize].as_ref()?;
         let (triangle, weights) = hit.on_triangle()?;
-        Some((map, self.place(solid, map, triangle, weights, hit.depth)))
+        Some((map, self.place(solid, map, triangle, weights)))
     }
 
     /// What the solid that an object is cut from multiplies ambient and diffuse light by: 1 where there is none.
@@ -154,20 +154,20 @@ impl OracleScene {
         let (Some(cut_from), Some((triangle, weights))) = (&solid.cut_from, hit.on_triangle()) else { return [1.0; 3] };
         let positions = solid.mesh.positions();
         let places = solid.vertices(triangle).map(|number| positions[number].as_dvec3().to_array());
-        let (place, ways) = self.over_triangle(solid, places, triangle, weights, hit.depth);
+        let (place, ways) = self.over_triangle(solid, places, triangle, weights);
         cut_from.color_at(place, ways)
     }
 
-    fn place(&self, solid: &Solid, map: &SolidMap, triangle: u32, weights: [f64; 3], depth: f64) -> PointOnMap {
+    fn place(&self, solid: &Solid, map: &SolidMap, triangle: u32, weights: [f64; 3]) -> PointOnMap {
         let uvs = solid.vertices(triangle).map(|number| map.uvs[number]);
-        let (uv, footprint) = self.over_triangle(solid, uvs, triangle, weights, depth);
+        let (uv, footprint) = self.over_triangle(solid, uvs, triangle, weights);
         PointOnMap { uv, footprint }
     }
 
     /// Numbers at a point of a triangle, from those of its corners, and by how much they change from a pixel to the
     /// next, along x and along y.
     ///
-    /// The footprint is a pixel's. On a triangle u = Σ uᵢVᵢ/Σ Vᵢ, Vᵢ the volume of the ray with the edge opposite to a
+    /// The footprint is a pixel's. On a triangle u = Σ uᵢVᵢ/Σ Vᵢ, Vᵢ the volume of the point of the picture with the edge opposite to a
     /// corner, which is linear over the picture: the derivative follows by the rule of quotients.
     fn over_triangle<const N: usize>(
         &self,
@@ -175,16 +175,16 @@ impl OracleScene {
         of_corners: [[f64; N]; 3],
         triangle: u32,
         weights: [f64; 3],
-        depth: f64,
     ) -> ([f64; N], [[f64; N]; 2]) {
-        let [a, b, c] = solid.triangle(triangle);
+        let [a, b, c] = solid.triangle(triangle).map(|corner| self.view.homogeneous(corner));
         let here: [f64; N] = std::array::from_fn(|k| (0..3).map(|i| weights[i] * of_corners[i][k]).sum::<f64>());
         let [u, v, w] = weights;
-        let ray = (a * u + b * v + c * w) / depth;
+        let sum: DVec3 = a * u + b * v + c * w;
+        let at = sum / -sum.z;
         let normals = [b.cross(c), c.cross(a), a.cross(b)];
-        let sum: f64 = normals.iter().map(|n| n.dot(ray)).sum();
-        let first = self.view.ray(0.0, 0.0);
-        let footprint = [self.view.ray(1.0, 0.0), self.view.ray(0.0, 1.0)].map(|next| {
+        let sum: f64 = normals.iter().map(|n| n.dot(at)).sum();
+        let first = self.view.at(0.0, 0.0);
+        let footprint = [self.view.at(1.0, 0.0), self.view.at(0.0, 1.0)].map(|next| {
             let grown = normals.map(|n| n.dot(next - first));
             std::array::from_fn(|k| (0..3).map(|i| (of_corners[i][k] - here[k]) * grown[i]).sum::<f64>() / sum)
         });
