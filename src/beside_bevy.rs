@@ -27,9 +27,9 @@
 pub use crate::HalfwayPlugins;
 pub use halfway_asset::{Assets as HalfwayAssets, Handle as HalfwayHandle};
 pub use halfway_lighting::{
-    Attenuation, BackMaterial, Blend, Camera as HalfwayCamera, Cone as HalfwayCone,
+    AlphaMode as HalfwayAlphaMode, Attenuation, BackMaterial, Camera as HalfwayCamera, Cone as HalfwayCone,
     DirectionalLight as HalfwayDirectionalLight, Encoding, Faces, Frequency, GlobalAmbient, Intensity, LightingPlugin,
-    Mask, Material as HalfwayMaterial, PointLight as HalfwayPointLight, Reflectance, Samples, Shading,
+    Material as HalfwayMaterial, PointLight as HalfwayPointLight, Reflectance, Samples, Shading,
     SpotLight as HalfwaySpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Viewer,
     Visibility as HalfwayVisibility,
 };

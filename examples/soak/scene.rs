@@ -69,7 +69,7 @@ impl Life {
         let material = Material { opacity, ..varied(frame) };
         let mut visitor = world.spawn((Mesh3d(mesh), material, shading, Transform::from_translation(at)));
         if opacity < 1.0 {
-            visitor.insert(Blend);
+            visitor.insert(AlphaMode::Blend);
         }
         self.visitors.push(visitor.id());
     }
@@ -134,10 +134,11 @@ impl Life {
         for parts in old.query::<(&SpotLight, &Transform)>().iter(old) {
             new.spawn((*parts.0, *parts.1));
         }
-        let mut objects = old.query::<(&SpawnOrder, &Mesh3d, &Material, Option<&Shading>, Has<Blend>, &Transform)>();
+        let mut objects =
+            old.query::<(&SpawnOrder, &Mesh3d, &Material, Option<&Shading>, Option<&AlphaMode>, &Transform)>();
         let mut objects: Vec<_> = objects.iter(old).collect();
         objects.sort_by_key(|object| *object.0);
-        for (_, Mesh3d(handle), material, shading, blends, transform) in objects {
+        for (_, Mesh3d(handle), material, shading, alpha, transform) in objects {
             let missing = || RenderError::MissingMesh { entity: "an object of the long run".into() };
             let mesh = old.resource::<Assets<Mesh>>().get(handle).ok_or_else(missing)?.clone();
             let mesh = new.resource_mut::<Assets<Mesh>>().add(mesh);
@@ -145,8 +146,8 @@ impl Life {
             if let Some(shading) = shading {
                 object.insert(*shading);
             }
-            if blends {
-                object.insert(Blend);
+            if let Some(alpha) = alpha {
+                object.insert(*alpha);
             }
         }
         Ok(fresh)

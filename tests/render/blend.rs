@@ -83,7 +83,7 @@ fn equal_depths_are_drawn_in_the_order_they_were_spawned_after_others_have_gone(
     let spawn = |stage: &mut Stage, colour| {
         let thing = pane(3.0, colour, 0.5);
         let handle = stage.handle(&thing.mesh);
-        stage.world().spawn((Mesh3d(handle), thing.material, Blend, thing.frames[0])).id()
+        stage.world().spawn((Mesh3d(handle), thing.material, AlphaMode::Blend, thing.frames[0])).id()
     };
     let gone = spawn(&mut stage, BLUE);
     let red = spawn(&mut stage, RED);

@@ -157,7 +157,7 @@ fn changed_components_show_at_once() {
         ("mesh", |e, mesh| insert(e, Mesh3d(mesh)), |t| t.mesh = Cuboid::default().into()),
         (
             "terms",
-            |e, _| insert(e, Terms { diffuse: Frequency::Vertex, specular: Frequency::Never }),
+            |e, _| insert(e, Shading::Terms(Terms { diffuse: Frequency::Vertex, specular: Frequency::Never })),
             |t| *t = t.clone().terms(Frequency::Vertex, Frequency::Never),
         ),
     ];
@@ -257,11 +257,12 @@ fn changes_of_objects() -> Vec<Change> {
         change("a reflectance", |stage, things| insert_on(stage, things[0], Reflectance::Phong)),
         change("a shading", |stage, things| insert_on(stage, things[0], Shading::Flat)),
         change("terms", |stage, things| {
-            insert_on(stage, things[0], Terms { diffuse: Frequency::Vertex, specular: Frequency::Never });
+            let terms = Terms { diffuse: Frequency::Vertex, specular: Frequency::Never };
+            insert_on(stage, things[0], Shading::Terms(terms));
         }),
         hidden_change("a tolerance", |stage, things| insert_on(stage, things[0], Tolerance::steps(30.0))),
-        hidden_change("blending", |stage, things| insert_on(stage, things[0], Blend)),
-        change("a mask", |stage, things| insert_on(stage, things[1], Mask(0.9))),
+        hidden_change("blending", |stage, things| insert_on(stage, things[0], AlphaMode::Blend)),
+        change("a mask", |stage, things| insert_on(stage, things[1], AlphaMode::Mask(0.9))),
         change("images that go", |stage, things| {
             stage.world().entity_mut(things[1]).remove::<Maps>();
         }),

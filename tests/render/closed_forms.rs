@@ -19,7 +19,7 @@ fn glossy(shininess: f32) -> Material {
         diffuse: grey(KD),
         specular: grey(KS),
         shininess,
-        opacity: 1.0,
+        ..Material::DEFAULT
     }
 }
 

@@ -83,7 +83,7 @@ fn equal_scenes_told_differently_are_equal_to_the_bit() {
         ),
         ("lights without Ls make no highlight", lit([point(no_ls)]), of(lit([point(point_light())]), no_ks)),
         (
-            "an opacity without Blend does nothing",
+            "an opacity without AlphaMode does nothing",
             of(lit([point(point_light())]), Material { opacity: 0.3, ..material() }),
             lit([point(point_light())]),
         ),

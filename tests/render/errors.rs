@@ -131,9 +131,10 @@ const OBJECTS: &[Row] = &[
         "a term a triangle beside one at the vertices",
         |w| {
             let object = object(w);
-            w.entity_mut(object).insert(Terms { diffuse: Frequency::Triangle, specular: Frequency::Vertex });
+            let terms = Terms { diffuse: Frequency::Triangle, specular: Frequency::Vertex };
+            w.entity_mut(object).insert(Shading::Terms(terms));
         },
-        &["\"ball\"", "Terms.diffuse", "Vertex", "Triangle"],
+        &["\"ball\"", "Shading.Terms.diffuse", "Vertex", "Triangle"],
     ),
     ("a NaN colour", |w| edit_material(w, |m| m.diffuse = NAN), &["\"ball\"", "Material.diffuse.green", "NaN"]),
     (

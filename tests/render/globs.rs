@@ -20,7 +20,7 @@ macro_rules! beside {
             use halfway::prelude::*;
 
             names! {
-                Attenuation BackMaterial Blend Camera Cone DirectionalLight Encoding Faces Frequency GlobalAmbient
+                AlphaMode Attenuation BackMaterial Camera Cone DirectionalLight Encoding Faces Frequency GlobalAmbient
                 Intensity LightingPlugin Material PointLight Reflectance Samples Shading SpotLight Terms Tolerance ViewTolerance Viewer Visibility
                 Cuboid Mesh Mesh3d MeshPlugin Plane Teapot UvSphere
                 Compile FrameReport Headless Picture Pixels RenderPlugin RenderSet HalfwayPlugins

@@ -182,6 +182,10 @@ fn around(count: usize) -> impl Iterator<Item = Vec3> {
     (0..count).map(turn).map(|angle| Vec3::new(60.0 * angle.cos(), 8.0, 60.0 * angle.sin()))
 }
 
+const fn mixed(diffuse: Frequency, specular: Frequency) -> Shading {
+    Shading::Terms(Terms { diffuse, specular })
+}
+
 /// A light that all of a floor gets.
 fn dim() -> PointLight {
     PointLight { attenuation: Attenuation::NONE, ..PointLight::new(LinearRgba::gray(0.1)) }
@@ -201,20 +205,19 @@ fn highlights_that_cannot_be_seen_are_not_shaded() {
         ("a power of two", (24, point), (0, point), 256.0),
     ];
     let frequencies = [
-        ("flat", Shading::Flat, None),
-        ("at vertices", Shading::Gouraud, None),
-        ("at fragments", Shading::Phong, None),
-        ("highlights at fragments", Shading::Phong, Some((Frequency::Vertex, Frequency::Fragment))),
-        ("highlights at vertices", Shading::Phong, Some((Frequency::Fragment, Frequency::Vertex))),
+        ("flat", Shading::Flat),
+        ("at vertices", Shading::Gouraud),
+        ("at fragments", Shading::Phong),
+        ("highlights at fragments", mixed(Frequency::Vertex, Frequency::Fragment)),
+        ("highlights at vertices", mixed(Frequency::Fragment, Frequency::Vertex)),
     ];
     let mut stage = Stage::new(32, 32);
     for (row, (low, low_kind), (overhead, overhead_kind), shininess) in rows {
-        for (frequency, shading, terms) in frequencies {
+        for (frequency, shading) in frequencies {
             let overhead_places = (0..overhead).map(|i| Vec3::new(0.1 * i as f32, 20.0, 0.0));
             let mut scene = small_floor(around(low).map(low_kind), overhead_places.map(overhead_kind), shininess);
             let floor = &mut scene.things[0];
             floor.shading = Some(shading);
-            floor.terms = terms.map(|(diffuse, specular)| Terms { diffuse, specular });
             stage.draw_bytes(&scene);
             let needed = (low + 2 * overhead) as u64;
             assert_eq!(stage.report().lights_assigned, needed, "{row}, {frequency}");
@@ -225,15 +228,14 @@ fn highlights_that_cannot_be_seen_are_not_shaded() {
 #[test]
 fn highlights_left_out_change_no_picture() {
     let mut failures = Failures::default();
-    let mixed = |diffuse, specular| Some(Terms { diffuse, specular });
     let rows = [
-        ("at vertices", Shading::Gouraud, None, 0.0),
-        ("at fragments", Shading::Phong, None, 0.0),
-        ("highlights at fragments", Shading::Phong, mixed(Frequency::Vertex, Frequency::Fragment), 0.0),
-        ("highlights at vertices", Shading::Phong, mixed(Frequency::Fragment, Frequency::Vertex), 0.0),
-        ("the back of the floor", Shading::Phong, None, std::f32::consts::PI),
+        ("at vertices", Shading::Gouraud, 0.0),
+        ("at fragments", Shading::Phong, 0.0),
+        ("highlights at fragments", mixed(Frequency::Vertex, Frequency::Fragment), 0.0),
+        ("highlights at vertices", mixed(Frequency::Fragment, Frequency::Vertex), 0.0),
+        ("the back of the floor", Shading::Phong, std::f32::consts::PI),
     ];
-    for (row, shading, terms, turn) in rows {
+    for (row, shading, turn) in rows {
         // A stage for all would run out of pipelines of their own.
         let mut stage = Stage::new(72, 48);
         let mut scene = hall(24, shading);
@@ -241,7 +243,7 @@ fn highlights_left_out_change_no_picture() {
         for thing in &mut scene.things {
             *thing = thing.clone().of(Material { shininess: 120.5, ..material() });
             *thing = thing.clone().back(Material { shininess: 120.5, ..other_material() }).faces(Faces::Both);
-            thing.terms = terms;
+            thing.shading = Some(shading);
         }
         scene.things[0].frames = vec![rotated(turn, 0.0, 0.0)];
         failures.draw(row, &mut stage, &scene, FLOAT);

@@ -48,7 +48,7 @@ fn material() -> impl Strategy<Value = Material> {
     let colour = || colour(brightness());
     let shininess = prop_oneof![1 => Just(0.0), 4 => 0f32..=30.0, 4 => (-8f32..=5.0).prop_map(|x| 10f32.powf(x))];
     (colour(), colour(), colour(), colour(), shininess).prop_map(|(ambient, diffuse, specular, emission, shininess)| {
-        Material { ambient, diffuse, specular, emission, shininess, opacity: 1.0 }
+        Material { ambient, diffuse, specular, emission, shininess, ..Material::DEFAULT }
     })
 }
 

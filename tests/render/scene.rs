@@ -82,7 +82,6 @@ pub(crate) struct Thing {
     pub(crate) material: Material,
     pub(crate) back: Option<Material>,
     pub(crate) shading: Option<Shading>,
-    pub(crate) terms: Option<Terms>,
     pub(crate) reflectance: Option<Reflectance>,
     pub(crate) faces: Option<Faces>,
     pub(crate) colors: Option<VertexColors>,
@@ -174,7 +173,6 @@ impl Thing {
             material: material(),
             back: None,
             shading: None,
-            terms: None,
             reflectance: None,
             faces: None,
             colors: None,
@@ -222,7 +220,7 @@ impl Thing {
     }
 
     pub(crate) fn terms(mut self, diffuse: Frequency, specular: Frequency) -> Self {
-        self.terms = Some(Terms { diffuse, specular });
+        self.shading = Some(Shading::Terms(Terms { diffuse, specular }));
         self
     }
 
@@ -252,7 +250,7 @@ pub(crate) fn material() -> Material {
         specular: LinearRgba::rgb(0.40, 0.60, 0.50),
         emission: LinearRgba::rgb(0.02, 0.01, 0.03),
         shininess: 19.5,
-        opacity: 1.0,
+        ..Material::DEFAULT
     }
 }
 
@@ -264,7 +262,7 @@ pub(crate) fn other_material() -> Material {
         specular: LinearRgba::rgb(0.55, 0.35, 0.25),
         emission: LinearRgba::rgb(0.01, 0.04, 0.02),
         shininess: 8.0,
-        opacity: 1.0,
+        ..Material::DEFAULT
     }
 }
 

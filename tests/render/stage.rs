@@ -191,9 +191,6 @@ impl Stage {
         if let Some(shading) = thing.shading {
             entity.insert(shading);
         }
-        if let Some(terms) = thing.terms {
-            entity.insert(terms);
-        }
         if let Some(reflectance) = thing.reflectance {
             entity.insert(reflectance);
         }
@@ -203,17 +200,14 @@ impl Stage {
         if maps.iter().next().is_some() {
             entity.insert(maps);
         }
-        if let Some(cutoff) = thing.mask {
-            entity.insert(Mask(cutoff));
-        }
         if let Some(solid) = thing.solid {
             entity.insert(solid);
         }
         if let Some(colors) = thing.colors {
             entity.insert(colors);
         }
-        if thing.blend {
-            entity.insert(Blend);
+        if thing.mask.is_some() || thing.blend {
+            entity.insert(AlphaMode::new(thing.mask, thing.blend));
         }
         entity.id()
     }

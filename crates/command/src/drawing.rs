@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use halfway::lighting::Choices;
 use halfway::prelude::{Intensity, Reflectance, Shading, UVec2};
 use halfway::record::parse_size;
 
@@ -17,13 +18,13 @@ pub(crate) struct DrawingArgs {
     #[arg(value_name = "SCENE|MODEL")]
     pub(crate) input: PathBuf,
     /// How often surfaces are shaded [default: the scene's; phong for a model]
-    #[arg(long, value_parser = one_of(&SHADINGS))]
+    #[arg(long, value_parser = shadings())]
     shading: Option<GivenShading>,
     /// How surfaces reflect [default: the scene's; blinn-phong for a model]
-    #[arg(long, value_parser = one_of(&REFLECTANCES))]
+    #[arg(long, value_parser = reflectances())]
     pub(crate) reflectance: Option<Reflectance>,
     /// Coverage samples a pixel: 1, or 4 for smooth edges [default: the scene's; 1 for a model]
-    #[arg(long, value_parser = one_of(&SAMPLES))]
+    #[arg(long, value_parser = samples())]
     pub(crate) samples: Option<u32>,
     /// The treatment of intensities above 1: clamp, renormalise, reinhard or aces; renormalise with the share of the
     /// last frame's divisor that stays, reinhard with the intensity that becomes 1 [default: the scene's; clamp for a
@@ -65,31 +66,32 @@ pub(crate) struct SizeArgs {
     pub(crate) size: Option<UVec2>,
 }
 
-/// Values of an option: the text on the command line, its help, and its meaning. Those without help are not listed.
-type Values<T, const N: usize> = [(&'static str, &'static str, T); N];
-
-const SHADINGS: Values<GivenShading, 4> = [
-    ("flat", "Once a triangle", GivenShading::Known(Shading::Flat)),
-    ("gouraud", "Once a vertex", GivenShading::Known(Shading::Gouraud)),
-    ("phong", "Once a pixel", GivenShading::Known(Shading::Phong)),
-    ("auto", "", GivenShading::Retired),
-];
-const REFLECTANCES: Values<Reflectance, 3> = [
-    ("phong", "(v·r)^α", Reflectance::Phong),
-    ("blinn-phong", "(n·h)^β, β the shininess as it is", Reflectance::BlinnPhong),
-    ("blinn-phong-matched", "(n·h)^β, β matched to the α that the shininess means", Reflectance::BlinnPhongMatched),
-];
-const SAMPLES: Values<u32, 2> = [("1", "The middle of the pixel", 1), ("4", "Four points of it", 4)];
-
-fn one_of<T, const N: usize>(values: &'static Values<T, N>) -> impl TypedValueParser<Value = T>
-where
-    T: Clone + Send + Sync,
-{
-    let names = values.iter().map(|(name, help, _)| PossibleValue::new(*name).help(*help).hide(help.is_empty()));
-    PossibleValuesParser::new(names).try_map(|text| {
-        let value = values.iter().find(|(name, ..)| *name == text);
-        value.map(|(.., value)| value.clone()).ok_or("not one of the values")
+/// The choices of a type as values of an option, with their meanings as help.
+fn values<T: Choices>() -> impl Iterator<Item = PossibleValue> {
+    T::CHOICES.iter().map(|choice| {
+        let meaning = choice.meaning.trim_end_matches('.');
+        PossibleValue::new(choice.key.replace('_', "-")).help(meaning)
     })
+}
+
+fn choice<T: Choices>(text: &str) -> Option<T> {
+    T::from_key(&text.replace('-', "_"))
+}
+
+fn shadings() -> impl TypedValueParser<Value = GivenShading> {
+    let retired = PossibleValue::new("auto").hide(true);
+    PossibleValuesParser::new(values::<Shading>().chain([retired]))
+        .map(|text| choice(&text).map_or(GivenShading::Retired, GivenShading::Known))
+}
+
+fn reflectances() -> impl TypedValueParser<Value = Reflectance> {
+    PossibleValuesParser::new(values::<Reflectance>()).try_map(|text| choice(&text).ok_or("not one of the values"))
+}
+
+fn samples() -> impl TypedValueParser<Value = u32> {
+    let [one, four] = [("1", "The middle of the pixel"), ("4", "Four points of it")];
+    let values = [one, four].map(|(number, help)| PossibleValue::new(number).help(help));
+    PossibleValuesParser::new(values).try_map(|text| text.parse::<u32>())
 }
 
 fn parse_intensity(text: &str) -> Result<Intensity, String> {
@@ -97,11 +99,10 @@ fn parse_intensity(text: &str) -> Result<Intensity, String> {
         Some((word, number)) => (word, Some(number.parse::<f32>().map_err(|_| EXPECTED.to_owned())?)),
         None => (text, None),
     };
-    let intensity = match (word, number) {
-        ("clamp", None) => Intensity::Clamp,
-        ("renormalise", smoothing) => Intensity::Renormalize { smoothing: smoothing.unwrap_or(0.0) },
-        ("reinhard", white) => Intensity::Reinhard { white: white.unwrap_or(Intensity::WHITE) },
-        ("aces", None) => Intensity::Aces,
+    let intensity = match (choice(word), number) {
+        (Some(named), None) => named,
+        (Some(Intensity::Renormalize { .. }), Some(smoothing)) => Intensity::Renormalize { smoothing },
+        (Some(Intensity::Reinhard { .. }), Some(white)) => Intensity::Reinhard { white },
         _ => return Err(EXPECTED.to_owned()),
     };
     intensity.validate().map(|()| intensity).map_err(|error| error.problem.to_string())

@@ -7,7 +7,7 @@ use crate::geometry::meshes::{self, Geometries};
 use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
 use crate::lights::surroundings::{self, Surroundings};
-use crate::lights::terms::{self, Chosen};
+use crate::lights::terms;
 use crate::passes::{self, Passes};
 use crate::report::FrameReport;
 use crate::sets::RenderSet;
@@ -73,7 +73,7 @@ impl FramePlugin {
                     (camera::update, camera::require_propagation).chain().in_set(ReadCamera),
                     (matrices::select, surroundings::gather).in_set(Select),
                     matrices::compute.in_set(Matrices),
-                    (terms::choose, meshes::forget_removed, meshes::lay_out).chain().in_set(Choose),
+                    (terms::check, meshes::forget_removed, meshes::lay_out).chain().in_set(Choose),
                     gather::gather.in_set(Illuminate),
                 ),
             );
@@ -87,7 +87,6 @@ impl FramePlugin {
             world.try_register_required_components::<Mesh3d, Material>(),
             world.try_register_required_components::<Mesh3d, ModelView>(),
             world.try_register_required_components::<Mesh3d, NormalMatrix>(),
-            world.try_register_required_components::<Mesh3d, Chosen>(),
         ];
         if required.iter().any(Result::is_err) {
             app.add_systems(self.schedule, complete.in_set(RenderSet::View).before(ReadCamera));
@@ -106,12 +105,12 @@ pub fn add_backend<B: Backend + Resource<Mutability = Mutable>, M>(
     app.add_systems(schedule, systems.run_if(condition));
 }
 
-type Incomplete = (With<Mesh3d>, Or<(Without<Material>, Without<ModelView>, Without<NormalMatrix>, Without<Chosen>)>);
+type Incomplete = (With<Mesh3d>, Or<(Without<Material>, Without<ModelView>, Without<NormalMatrix>)>);
 
 /// Gives objects the components that they lack.
 fn complete(objects: Query<Entity, Incomplete>, mut commands: Commands) {
     for object in &objects {
-        let all = (Material::default(), ModelView::default(), NormalMatrix::default(), Chosen::default());
+        let all = (Material::default(), ModelView::default(), NormalMatrix::default());
         commands.entity(object).insert_if_new(all);
     }
 }

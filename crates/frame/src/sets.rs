@@ -12,8 +12,8 @@ pub enum RenderSet {
     Select,
     /// [`ModelView`](crate::view::matrices::ModelView) and [`NormalMatrix`](crate::view::matrices::NormalMatrix) of every visible object are current.
     Matrices,
-    /// [`Chosen`](crate::lights::terms::Chosen) says where each visible object's terms are shaded, and its mesh is in patches laid out
-    /// for that.
+    /// The [`Shading`](halfway_lighting::Shading) of every visible object can be drawn, and its mesh is in patches laid
+    /// out for it.
     Choose,
     /// [`Lights`](crate::lights::gather::Lights) holds the lights in eye space; each visible object has a level of detail, and each of
     /// its patches that is seen has its light lists.

@@ -2,6 +2,7 @@
 
 use std::ops::Bound::{Excluded, Included, Unbounded};
 
+use crate::choices::{Choice, Choices};
 use crate::equations::{aces, reinhard};
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
@@ -44,6 +45,13 @@ impl Intensity {
     /// The values of [`Reinhard::white`](Self::Reinhard).
     pub const WHITE_RANGE: Range = Range::new(Included(1.0), Unbounded, "a finite number, 1 or more");
 
+    /// Its name for readers, such as "Reinhard", whatever its number.
+    pub fn name(self) -> &'static str {
+        let kind = std::mem::discriminant(&self);
+        let choice = Self::CHOICES.iter().find(|choice| std::mem::discriminant(&choice.value) == kind);
+        choice.map_or("", |choice| choice.name)
+    }
+
     /// Whether it acts on the finished picture, and not on each surface.
     pub fn acts_on_pictures(self) -> bool {
         self != Self::Clamp
@@ -82,6 +90,31 @@ impl Intensity {
             Self::Reinhard { white } => fields.within("Reinhard.white", white, Self::WHITE_RANGE),
         }
     }
+}
+
+/// Each with the default of its number.
+impl Choices for Intensity {
+    const CHOICES: &'static [Choice<Self>] = &[
+        Choice { value: Self::Clamp, key: "clamp", name: "clamped", meaning: "min(I, 1) for every channel." },
+        Choice {
+            value: Self::Renormalize { smoothing: 0.0 },
+            key: "renormalise",
+            name: "renormalised",
+            meaning: "Where any channel exceeds 1, all of the picture are divided by the largest.",
+        },
+        Choice {
+            value: Self::Reinhard { white: Self::WHITE },
+            key: "reinhard",
+            name: "Reinhard",
+            meaning: "I·(1 + I/w²)/(1 + I) for every channel, with a white point w of 4.",
+        },
+        Choice {
+            value: Self::Aces,
+            key: "aces",
+            name: "ACES",
+            meaning: "I·(2.51·I + 0.03)/(I·(2.43·I + 0.59) + 0.14), at most 1, for every channel.",
+        },
+    ];
 }
 
 #[cfg(test)]

@@ -26,9 +26,8 @@
 //!
 //! # What is here
 //! - Components: the lights, [`Material`] (with [presets](Material::PRESETS)) and [`BackMaterial`], [`Shading`],
-//!   [`Reflectance`], [`Faces`], [`Blend`], [`Mask`], [`Visibility`], [`Tolerance`], [`VertexColors`]; the resources
-//!   [`GlobalAmbient`] and
-//!   [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
+//!   [`Reflectance`], [`Faces`], [`AlphaMode`], [`Visibility`], [`Tolerance`], [`VertexColors`]; the resources
+//!   [`GlobalAmbient`] and [`ViewTolerance`]; [`LightingPlugin`]. A light stands where
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
 //! - [`lights`]: the kinds of light, a file each: component, maths, bound, record, WGSL and fields.
@@ -37,6 +36,7 @@
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`record`]: lights, materials and instances as whatever draws reads them.
+//! - [`Choices`]: the names of shadings, reflectances and intensity policies, listed once.
 //! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
 //! - [`Shown`], [`propagation`]: what is hidden; whether transforms are propagated.
 //! - [`homogeneous`]: light positions as four coordinates.
@@ -65,9 +65,11 @@
 // Powers and the functions of angles only by `equations::Transcendental`: see clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod alpha;
 mod ambient;
 pub mod bounds;
 mod camera;
+mod choices;
 #[cfg(not(feature = "ecs"))]
 mod color;
 mod direction;
@@ -101,10 +103,12 @@ mod tolerance;
 mod vertex_colors;
 mod visibility;
 
+pub use alpha::AlphaMode;
 pub use ambient::GlobalAmbient;
 #[cfg(feature = "ecs")]
 pub use bevy_color::LinearRgba;
 pub use camera::{Camera, Encoding, Samples};
+pub use choices::{Choice, Choices};
 #[cfg(not(feature = "ecs"))]
 pub use color::LinearRgba;
 pub use direction::rotation_along;
@@ -123,7 +127,7 @@ pub use projection::{DepthSpan, Lens, LensTerms, Projection, ViewRay};
 #[cfg(feature = "ecs")]
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
-pub use shading::{Blend, Faces, Mask, Reflectance, Shading, Terms, Viewer};
+pub use shading::{Faces, Reflectance, Shading, Terms, Viewer};
 #[cfg(feature = "ecs")]
 pub use shown::Shown;
 pub use tolerance::{Tolerance, ViewTolerance};

@@ -4,7 +4,9 @@ use crate::LinearRgba;
 
 use crate::Reflectance;
 use crate::equations::vector::{dot, scale};
-use crate::equations::{Eye, Incidence, Irradiance, Real, ShadedPoint, diffuse_term, rgb, specular_term, view_vector};
+use crate::equations::{
+    Coefficients, Eye, Incidence, Irradiance, Real, ShadedPoint, diffuse_term, rgb, specular_term, view_vector,
+};
 use crate::falloff::number;
 
 /// The meaning of each field of a light, for its documentation and for the schema of scene files.
@@ -56,7 +58,7 @@ impl<T: Real> Colors<T> {
         incident: &Incidence<T>,
         ambient: T,
         (surface, view): (&ShadedPoint<T>, &Eye<T>),
-        (reflectance, shininess): (Reflectance, T),
+        (reflectance, material): (Reflectance, &Coefficients<T>),
     ) -> Irradiance<T> {
         let n = surface.normal;
         let v = view_vector(surface, view);
@@ -65,7 +67,7 @@ impl<T: Real> Colors<T> {
         Irradiance {
             ambient: scale(self.la, ambient),
             diffuse: scale(self.ld, weight * diffuse_term(n, l)),
-            specular: scale(self.ls, weight * specular_term(reflectance, n, l, v, shininess)),
+            specular: scale(self.ls, weight * specular_term(reflectance, n, l, v, material)),
         }
     }
 }

@@ -61,7 +61,7 @@ pub struct Material {
     pub shininess: f32,
     #[doc = meaning!(opacity)]
     ///
-    /// 0 to 1; blended is what has [`crate::Blend`]. Default 1.
+    /// 0 to 1; [`AlphaMode`](crate::AlphaMode) says what one below 1 does. Default 1.
     pub opacity: f32,
 }
 
@@ -150,7 +150,15 @@ impl Default for Material {
 
 /// The material of back faces, where they are drawn ([`crate::Faces`]) and differ from the front.
 ///
-/// Without it back faces take the entity's [`Material`].
+/// Without it back faces take the entity's [`Material`]. It is a component of its own, since few objects have one.
+///
+/// ```
+/// use bevy_ecs::world::World;
+/// use halfway_lighting::{BackMaterial, Faces, Material};
+///
+/// let mut world = World::new();
+/// world.spawn((Material::BRASS, BackMaterial(Material::COPPER), Faces::Both));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub struct BackMaterial(pub Material);

@@ -3,11 +3,14 @@
 //!
 //! All numbers are finite: whatever leaves the range of f32 becomes the largest number in it.
 
+use std::mem::offset_of;
+
 use bytemuck::{Pod, Zeroable};
 use glam::{Affine3A, Mat3, Vec3, Vec3A};
 
 use crate::equations::{Coefficients, specular_exponent};
 use crate::lights::Light;
+use crate::range::Range;
 use crate::{Faces, Reflectance};
 
 /// A light. Each kind says by its [`LightKind::record`](crate::lights::LightKind::record) what it fills; the rest is 0
@@ -102,26 +105,53 @@ pub struct MaterialRecord {
 impl MaterialRecord {
     /// A material under ambient light: Ga, and La of the lights that do not attenuate it. Surfaces are `painted` where
     /// colors of vertices, images, a mask, a solid or an environment have part in what they reflect.
-    pub fn new(
-        material: &Coefficients<f32>,
-        opacity: f32,
-        reflectance: Reflectance,
-        ambient: Vec3,
-        painted: bool,
-    ) -> Self {
+    pub fn new(material: &Coefficients<f32>, reflectance: Reflectance, ambient: Vec3, painted: bool) -> Self {
         let in_base = if painted { [0.0; 3] } else { material.ke };
         let unlit = Vec3::from_array(in_base) + Vec3::from_array(material.ka) * ambient;
         Self {
             base: unlit.to_array().map(finite),
             shininess: finite(specular_exponent(reflectance, material.shininess)),
             diffuse: material.kd,
-            opacity,
+            opacity: material.opacity,
             specular: material.ks,
             ambient: material.ka,
             emission: if painted { material.ke } else { [0.0; 3] },
             ..Self::default()
         }
     }
+
+    /// Its fields but for padding, in the order of the struct.
+    pub const FIELDS: [RecordField; 7] = [
+        RecordField { name: "base", first: offset_of!(Self, base), count: 3, range: Range::NON_NEGATIVE },
+        RecordField { name: "shininess", first: offset_of!(Self, shininess), count: 1, range: Range::NON_NEGATIVE },
+        RecordField { name: "diffuse", first: offset_of!(Self, diffuse), count: 3, range: Range::NON_NEGATIVE },
+        RecordField { name: "opacity", first: offset_of!(Self, opacity), count: 1, range: Range::UNIT },
+        RecordField { name: "specular", first: offset_of!(Self, specular), count: 3, range: Range::NON_NEGATIVE },
+        RecordField { name: "ambient", first: offset_of!(Self, ambient), count: 3, range: Range::NON_NEGATIVE },
+        RecordField { name: "emission", first: offset_of!(Self, emission), count: 3, range: Range::NON_NEGATIVE },
+    ];
+
+    /// The first field with a number out of its range, and that number.
+    pub fn wrong(&self) -> Option<(&'static RecordField, f32)> {
+        let numbers: &[f32] = bytemuck::cast_slice(std::slice::from_ref(self));
+        Self::FIELDS.iter().find_map(|field| {
+            let own = &numbers[field.first / size_of::<f32>()..][..field.count];
+            own.iter().find(|number| !field.range.contains(**number)).map(|number| (field, *number))
+        })
+    }
+}
+
+/// A field of a record: one number, or the channels of a color.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RecordField {
+    /// Its name, here and in the WGSL struct.
+    pub name: &'static str,
+    /// Where it begins, in bytes.
+    pub first: usize,
+    /// How many numbers it has.
+    pub count: usize,
+    /// The range of each.
+    pub range: Range,
 }
 
 /// Which side of triangles is left out.

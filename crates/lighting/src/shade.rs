@@ -22,15 +22,16 @@ pub fn incidence<T: Real>(surface: &ShadedPoint<T>, light: &Light<T>) -> Option<
     light.incidence(surface)
 }
 
-/// The light that arrives at a point whose material has this shininess.
+/// The light that arrives at a point of a surface: before the material's reflectances, but with the shape of its
+/// highlight.
 pub fn irradiance<T: Real>(
     surface: &ShadedPoint<T>,
     light: &Light<T>,
     view: &Eye<T>,
     reflectance: Reflectance,
-    shininess: T,
+    material: &Coefficients<T>,
 ) -> Irradiance<T> {
-    light.irradiance(surface, view, reflectance, shininess)
+    light.irradiance(surface, view, reflectance, material)
 }
 
 /// The reflected part of the light that arrives: `ka·ambient + kd·diffuse + ks·specular`.
@@ -55,7 +56,7 @@ pub fn light_terms<T: Real>(
     view: &Eye<T>,
     reflectance: Reflectance,
 ) -> LightTerms<T> {
-    reflected_terms(&irradiance(surface, light, view, reflectance, material.shininess), material)
+    reflected_terms(&irradiance(surface, light, view, reflectance, material), material)
 }
 
 /// The light that one source adds at a point: the summand of the equation.
@@ -66,7 +67,7 @@ pub fn light_contribution<T: Real>(
     view: &Eye<T>,
     reflectance: Reflectance,
 ) -> [T; 3] {
-    reflected(&irradiance(surface, light, view, reflectance, material.shininess), material)
+    reflected(&irradiance(surface, light, view, reflectance, material), material)
 }
 
 /// I: the colour of a point under all lights, linear RGB, unclamped.

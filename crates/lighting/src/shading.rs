@@ -1,11 +1,24 @@
-//! How often a surface is shaded, by which reflectance, and on which side.
+//! How often a surface is shaded, by which reflectance, and on which sides.
 
+use crate::choices::{Choice, Choices};
 use crate::frequency::Frequency;
 use crate::invalid::{Fields, InvalidValue, Problem};
 
 /// The shading frequency: where the equation is evaluated.
 ///
 /// On an object it wins over the one on the camera.
+///
+/// ```
+/// use bevy_ecs::world::World;
+/// use halfway_lighting::{Frequency, Material, Shading, Terms};
+///
+/// let mut world = World::new();
+/// world.spawn((Material::BRASS, Shading::Gouraud));
+/// // Highlights stay sharp, and the rest is spared.
+/// let sharp = Terms { diffuse: Frequency::Vertex, specular: Frequency::Fragment };
+/// world.spawn((Material::BRASS, Shading::Terms(sharp)));
+/// assert_eq!(Terms::from(Shading::Gouraud), Terms::both(Frequency::Vertex));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 #[non_exhaustive]
@@ -18,15 +31,50 @@ pub enum Shading {
     /// At each fragment with the interpolated, renormalised normal.
     #[default]
     Phong,
+    /// Each term of the lights at a frequency of its own.
+    Terms(Terms),
 }
 
-/// Where each term of an object's lights is evaluated, in place of its [`Shading`].
+impl Shading {
+    /// Its name for readers: "flat", "Gouraud", "Phong"; "mixed terms" of [`Shading::Terms`], also where another name
+    /// fits.
+    pub fn name(self) -> &'static str {
+        self.choice().map_or("mixed terms", |choice| choice.name)
+    }
+
+    /// Checks that the frequencies can be drawn together.
+    ///
+    /// # Errors
+    /// Returns [`InvalidValue`] if one term is evaluated once a triangle, and the other at the vertices or fragments.
+    pub fn validate(&self) -> Result<(), InvalidValue> {
+        Terms::from(*self).validate()
+    }
+}
+
+impl Choices for Shading {
+    const CHOICES: &'static [Choice<Self>] = &[
+        Choice { value: Self::Flat, key: "flat", name: "flat", meaning: "One shade per triangle, at its centroid." },
+        Choice {
+            value: Self::Gouraud,
+            key: "gouraud",
+            name: "Gouraud",
+            meaning: "At every vertex; colours are interpolated.",
+        },
+        Choice {
+            value: Self::Phong,
+            key: "phong",
+            name: "Phong",
+            meaning: "At every fragment; normals are interpolated.",
+        },
+    ];
+}
+
+/// Where each term of an object's lights is evaluated: the value of [`Shading::Terms`], and what every shading comes to.
 ///
 /// Flat is `Triangle` for both, Gouraud `Vertex`, Phong `Fragment` (`Terms::from(shading)`). The hybrid that keeps
 /// highlights sharp and spares the rest is `Terms { diffuse: Vertex, specular: Fragment }`. Emission and ambient are
 /// always there; an ambient colour that attenuates goes with the diffuse term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub struct Terms {
     /// Frequency of kd·Ld·max(n·l, 0).
     pub diffuse: Frequency,
@@ -64,7 +112,7 @@ impl Terms {
             None => Ok(()),
             Some(other) => {
                 let field = if self.diffuse == Frequency::Triangle { "diffuse" } else { "specular" };
-                Err(Fields::of("Terms").error(field, Problem::TriangleBeside { other }))
+                Err(Fields::of("Shading").inside("Terms.").error(field, Problem::TriangleBeside { other }))
             }
         }
     }
@@ -72,11 +120,12 @@ impl Terms {
 
 impl From<Shading> for Terms {
     fn from(shading: Shading) -> Self {
-        Self::both(match shading {
-            Shading::Flat => Frequency::Triangle,
-            Shading::Gouraud => Frequency::Vertex,
-            Shading::Phong => Frequency::Fragment,
-        })
+        match shading {
+            Shading::Flat => Self::both(Frequency::Triangle),
+            Shading::Gouraud => Self::both(Frequency::Vertex),
+            Shading::Phong => Self::both(Frequency::Fragment),
+            Shading::Terms(terms) => terms,
+        }
     }
 }
 
@@ -94,6 +143,36 @@ pub enum Reflectance {
     /// Blinn–Phong with β matched to the material's shininess taken as Phong's α ([`crate::matched_shininess`]), so
     /// that a highlight has about the size it has under [`Reflectance::Phong`].
     BlinnPhongMatched,
+}
+
+impl Reflectance {
+    /// Its name for readers: "Phong", "Blinn–Phong", "matched Blinn–Phong".
+    pub fn name(self) -> &'static str {
+        self.choice().map_or("", |choice| choice.name)
+    }
+}
+
+impl Choices for Reflectance {
+    const CHOICES: &'static [Choice<Self>] = &[
+        Choice {
+            value: Self::Phong,
+            key: "phong",
+            name: "Phong",
+            meaning: "(r·v)^shininess, r the reflected light direction.",
+        },
+        Choice {
+            value: Self::BlinnPhong,
+            key: "blinn_phong",
+            name: "Blinn–Phong",
+            meaning: "(n·h)^shininess, h the halfway vector.",
+        },
+        Choice {
+            value: Self::BlinnPhongMatched,
+            key: "blinn_phong_matched",
+            name: "matched Blinn–Phong",
+            meaning: "(n·h)^β with β matched, so that highlights are about as large as under `phong`.",
+        },
+    ];
 }
 
 /// Which sides of a surface are drawn. Front faces wind counter-clockwise, also under a mirroring transform.
@@ -118,38 +197,6 @@ impl Faces {
     /// Whether back faces are drawn.
     pub const fn shows_back(self) -> bool {
         matches!(self, Self::Back | Self::Both)
-    }
-}
-
-/// Marks a surface as blended: drawn after the opaque ones, sorted back to front, by its material's opacity.
-///
-/// Without it a surface is opaque whatever its opacity says.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
-pub struct Blend;
-
-/// Marks a surface as cut out: it is not there where its opacity is below this number, and there as a whole elsewhere,
-/// or blended where it has [`Blend`].
-///
-/// The opacity is the material's, times that of the vertices' colours and of images, where there are any. A finite
-/// number, 0 or more; 0 cuts nothing away. The default is 0.5, as in glTF 2.0 (§3.9.4).
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
-pub struct Mask(pub f32);
-
-impl Default for Mask {
-    fn default() -> Self {
-        Self(0.5)
-    }
-}
-
-impl Mask {
-    /// Expects a finite number, 0 or more.
-    ///
-    /// # Errors
-    /// It is not so.
-    pub fn validate(&self) -> Result<(), InvalidValue> {
-        Fields::of("Mask").non_negative("0", self.0)
     }
 }
 

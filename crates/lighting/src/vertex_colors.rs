@@ -12,7 +12,7 @@
 #[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 pub enum VertexColors {
     /// They multiply the ambient and diffuse reflectance, and the opacity where the object is blended
-    /// ([`Blend`](crate::Blend)); on both sides.
+    /// ([`AlphaMode`](crate::AlphaMode)); on both sides.
     #[default]
     Multiply,
     /// They do nothing, and cost nothing.

@@ -38,7 +38,6 @@ pub use gpu::texture::{Load, TextureTarget};
 pub use gpu::timer::GpuTimer;
 pub use halfway_frame::error::RenderError;
 pub use halfway_frame::lights::gather::Lights;
-pub use halfway_frame::lights::terms::Chosen;
 pub use halfway_frame::passes::{Pass, PassCounts, Phase};
 pub use halfway_frame::report::FrameReport;
 pub use halfway_frame::sets::RenderSet;

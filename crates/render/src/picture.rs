@@ -14,7 +14,7 @@ pub enum Pixels {
     Byte,
     /// Linear I in 32-bit floating point; not clamped, but after a policy that acts on the finished picture. An adapter
     /// may be unable to blend them, or to take four samples of them: then a frame with
-    /// [`Blend`](halfway_lighting::Blend) objects, or with [`Samples::Four`], is
+    /// [blended](halfway_lighting::AlphaMode) objects, or with [`Samples::Four`], is
     /// [`RenderError::FloatTarget`], and others are drawn.
     Float,
 }

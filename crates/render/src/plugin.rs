@@ -25,8 +25,9 @@ use halfway_frame::{FramePlugin, ReadCamera};
 ///
 /// Each error of a frame is logged once by the `log` crate (target `halfway_render::errors`; a window says them
 /// itself), and so is each warning: an opacity that is not shown without
-/// [`Blend`](halfway_lighting::Blend), why a picture shows nothing ([`why_empty`](crate::why_empty)), and
-/// that a picture is asked for that is a frame old ([`PendingPicture::request`](crate::PendingPicture::request)).
+/// [`AlphaMode::Blend`](halfway_lighting::AlphaMode::Blend), why a picture shows nothing
+/// ([`why_empty`](crate::why_empty)), and that a picture is asked for that is a frame old
+/// ([`PendingPicture::request`](crate::PendingPicture::request)).
 ///
 /// Brings [`FramePlugin`] and the plugins of meshes, lighting and textures. May be added before or after other plugins,
 /// and to an App that has

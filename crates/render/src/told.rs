@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use bevy_ecs::prelude::*;
-use halfway_lighting::{Blend, Mask, Material};
+use halfway_lighting::{AlphaMode, Material};
 use halfway_mesh::Mesh3d;
 
 use crate::cpu::canvas::CanvasTarget;
@@ -52,13 +52,14 @@ pub(crate) fn tell_errors(
     }
 }
 
-type Opaque = (With<Mesh3d>, Without<Blend>, Without<Mask>, Changed<Material>);
+type Opacity = (Entity, &'static Material, Option<&'static AlphaMode>, Option<&'static Name>);
 
 /// Logs how many materials have an opacity that nothing shows.
-pub(crate) fn tell_of_opacity(objects: Query<(Entity, &Material, Option<&Name>), Opaque>, mut told: ResMut<Told>) {
-    let mut hidden = objects.iter().filter(|(_, material, _)| material.opacity < 1.0);
-    let Some((entity, _, name)) = hidden.next() else { return };
-    let message = "an opacity below 1 does not show without blending: insert `Blend`, or a `Mask`";
+pub(crate) fn tell_of_opacity(objects: Query<Opacity, (With<Mesh3d>, Changed<Material>)>, mut told: ResMut<Told>) {
+    let is_opaque = |alpha: Option<&AlphaMode>| alpha.is_none_or(|alpha| *alpha == AlphaMode::Opaque);
+    let mut hidden = objects.iter().filter(|(_, material, alpha, _)| material.opacity < 1.0 && is_opaque(*alpha));
+    let Some((entity, _, _, name)) = hidden.next() else { return };
+    let message = "an opacity below 1 does not show without blending: insert `AlphaMode::Blend`, or a mask";
     if told.is_new(message) {
         let others = match hidden.count() {
             0 => String::new(),

@@ -1,28 +1,15 @@
 //! The key of a scene file that says what becomes of intensities above 1.
 
-use halfway_lighting::Intensity;
+use halfway_lighting::{Choices, Intensity};
 
 use crate::check::Limits;
-use crate::keys::{Fill, Key, Keys, Object, Visit, keys};
+use crate::keys::{Fill, Key, Keys, Object, Visit, Words, keys, named_words};
 
 impl Keys for Intensity {
     const NAME: &'static str = "Intensity";
     const MEANING: &'static str = "`intensity`: what becomes of intensities above 1. `clamp` acts on each surface, the \
                                    others on the finished picture.";
-    const WORDS: &'static [(&'static str, Self, &'static str)] = &[
-        ("clamp", Self::Clamp, "min(I, 1) for every channel."),
-        (
-            RENORMALISE.name,
-            Self::Renormalize { smoothing: 0.0 },
-            "Where any channel exceeds 1, all of the picture are divided by the largest.",
-        ),
-        (
-            REINHARD.name,
-            Self::Reinhard { white: Self::WHITE },
-            "I·(1 + I/w²)/(1 + I) for every channel, with a white point w of 4.",
-        ),
-        ("aces", Self::Aces, "I·(2.51·I + 0.03)/(I·(2.43·I + 0.59) + 0.14), at most 1, for every channel."),
-    ];
+    const WORDS: Words<Self> = &named_words::<Self, { Self::CHOICES.len() }>();
 
     fn blank() -> Self {
         Self::default()

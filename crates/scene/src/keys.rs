@@ -4,12 +4,16 @@ use std::convert::Infallible;
 use std::fmt;
 use std::marker::PhantomData;
 
+use halfway_lighting::{Choice, Choices};
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Unexpected, Visitor};
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::{Map, Value, json};
 
 use crate::check::{Check, KeyProblem, Limits, Within};
 use crate::entry::{Entry, Read, Written, reference};
+
+/// Words of scene files, each with its value and its description.
+pub(crate) type Words<T> = &'static [(&'static str, T, &'static str)];
 
 /// How a type appears in a scene file: as an object with keys, as a word, or as either.
 ///
@@ -19,8 +23,8 @@ pub(crate) trait Keys: Clone + PartialEq + 'static {
     const NAME: &'static str;
     /// Its description in the schema.
     const MEANING: &'static str;
-    /// The words, each with its value and its description.
-    const WORDS: &'static [(&'static str, Self, &'static str)] = &[];
+    /// The words.
+    const WORDS: Words<Self> = &[];
     /// The value of a word.
     fn from_word(word: &str) -> Option<Self> {
         Self::WORDS.iter().find(|(known, ..)| *known == word).map(|(_, value, _)| value.clone())
@@ -491,6 +495,19 @@ macro_rules! keys {
 }
 pub(crate) use keys;
 
+/// The words of a type whose values have names in `halfway_lighting`; `N` is their number.
+pub(crate) const fn named_words<T: Choices, const N: usize>() -> [(&'static str, T, &'static str); N] {
+    let Choice { value, key, meaning, .. } = T::CHOICES[0];
+    let mut words = [(key, value, meaning); N];
+    let mut i = 1;
+    while i < N {
+        let Choice { value, key, meaning, .. } = T::CHOICES[i];
+        words[i] = (key, value, meaning);
+        i += 1;
+    }
+    words
+}
+
 /// Generates [`Keys`] for a type that has words only, from a table of words and values; the documentation of a word is
 /// also its description in the schema.
 macro_rules! words {
@@ -501,7 +518,7 @@ macro_rules! words {
         impl $crate::keys::Keys for $entry {
             const NAME: &'static str = stringify!($entry);
             const MEANING: &'static str = concat!($($about),*);
-            const WORDS: &'static [(&'static str, Self, &'static str)] =
+            const WORDS: $crate::keys::Words<Self> =
                 &[$((stringify!($word), $value, concat!($($doc),*)),)*];
 
             fn blank() -> Self {

@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 use crate::check::{Check, KeyProblem, Limits, Within, direction, test};
 use crate::described;
 use crate::entry::Entry;
-use crate::keys::{CheckKeys, Fill, Key, Keys, Object, Presence, Visit, keys, keys_schema, words};
+use crate::keys::{CheckKeys, Fill, Key, Keys, Object, Presence, Visit, Words, keys, keys_schema, words};
 
 /// A light. In JSON, the keys of `cone` and `light` stand beside the others, as far as the kind of light has them
 /// ([`LightKind`]); what it does not have is ignored here and refused there.
@@ -107,7 +107,7 @@ const OBJECT: Key = Key::required("object", "That of the object of this name.");
 impl Keys for AttachEntry {
     const NAME: &'static str = "AttachEntry";
     const MEANING: &'static str = "`attach`: the frame that a light is in.";
-    const WORDS: &'static [(&'static str, Self, &'static str)] = &[
+    const WORDS: Words<Self> = &[
         ("world", Self::World, "The world's."),
         ("camera", Self::Camera, "The camera's: it looks along −Z, with +Y up."),
     ];

@@ -14,7 +14,7 @@ use crate::error::SceneError;
 use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
 use crate::mesh::MeshEntry;
 use crate::object::ObjectEntry;
-use halfway_lighting::LightComponent;
+use halfway_lighting::{AlphaMode, LightComponent};
 
 /// The mesh of an object.
 pub(crate) struct ObjectShape {
@@ -86,7 +86,7 @@ impl<'a> Shapes<'a> {
             return;
         }
         let own = shape.parts.iter().filter_map(|part| part.own.as_ref());
-        let is_hidden = |own: &&ModelMaterial| own.material.opacity < 1.0 && !own.blend && own.mask.is_none();
+        let is_hidden = |own: &&ModelMaterial| own.material.opacity < 1.0 && own.alpha == AlphaMode::Opaque;
         let count = own.filter(is_hidden).count();
         if count > 0 {
             self.warnings.push(format!(

@@ -10,7 +10,7 @@ use bevy_ecs::prelude::*;
 use bevy_math::{DMat3, DQuat, Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_asset::{Assets, Handle};
-use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Mask, VertexColors, ViewTolerance};
+use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Projection, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
 use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
@@ -247,10 +247,16 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     insert_some(entity, object.solid.as_ref().map(|solid| solid.for_part(&part.object_from_part)));
     // Said only where it is not so anyway.
     insert_some(entity, Some(object.vertex_colors).filter(|colors| *colors != VertexColors::default()));
-    insert_some(entity, object.blend.unwrap_or_else(|| own.is_some_and(|own| own.blend)).then_some(Blend));
+    let alpha = alpha(object, own.map(|own| own.alpha).unwrap_or_default());
+    insert_some(entity, Some(alpha).filter(|alpha| *alpha != AlphaMode::default()));
+}
+
+/// What the opacity of an object does, by its keys `mask` and `blend` and by its model's own material.
+fn alpha(object: &ObjectEntry, own: AlphaMode) -> AlphaMode {
     // A material that asks for blending does not ask to be cut out.
-    let of_model = own.and_then(|own| own.mask).filter(|_| object.blend != Some(true));
-    insert_some(entity, object.mask.or(of_model).filter(|cutoff| *cutoff > 0.0).map(Mask));
+    let of_model = own.cutoff().filter(|_| object.blend != Some(true));
+    let cutoff = object.mask.or(of_model).filter(|cutoff| *cutoff > 0.0);
+    AlphaMode::new(cutoff, object.blend.unwrap_or(own.blends()))
 }
 
 fn insert_some(entity: &mut EntityWorldMut, component: Option<impl Bundle>) {

@@ -3,11 +3,13 @@
 use std::ops::Bound::Excluded;
 
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::{Encoding, Faces, Projection, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer};
+use halfway_lighting::{
+    Choices, Encoding, Faces, Projection, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer,
+};
 
 use crate::check::{Check, KeyProblem, Limits, direction};
 use crate::described;
-use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, keys, words};
+use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, Words, keys, named_words, words};
 
 words! {
     /// `output`: what the channels of an 8- or 16-bit picture hold.
@@ -24,16 +26,6 @@ words! {
         local = Self::Local,
         /// The direction to the viewer is the camera's axis everywhere: cheaper, right only from afar.
         infinite = Self::Infinite,
-    }
-
-    /// `reflectance`: the specular term.
-    Reflectance {
-        /// (r·v)^shininess, r the reflected light direction.
-        phong = Self::Phong,
-        /// (n·h)^shininess, h the halfway vector.
-        blinn_phong = Self::BlinnPhong,
-        /// (n·h)^β with β matched, so that highlights are about as large as under `phong`.
-        blinn_phong_matched = Self::BlinnPhongMatched,
     }
 
     /// `faces`: which sides of a surface are shown. Front faces wind counter-clockwise, also under a mirroring
@@ -60,15 +52,10 @@ words! {
 impl Keys for Shading {
     const NAME: &'static str = "Shading";
     const MEANING: &'static str = "`shading`: how often a surface is shaded.";
-    const WORDS: &'static [(&'static str, Self, &'static str)] = &[
-        ("flat", Self::Flat, "One shade per triangle, at its centroid."),
-        ("gouraud", Self::Gouraud, "At every vertex; colours are interpolated."),
-        ("phong", Self::Phong, "At every fragment; normals are interpolated."),
-    ];
+    const WORDS: Words<Self> = &named_words::<Self, { Self::CHOICES.len() }>();
 
     fn from_word(word: &str) -> Option<Self> {
-        let word = if word == AUTO { "phong" } else { word };
-        Self::WORDS.iter().find(|(known, ..)| *known == word).map(|(_, shading, _)| *shading)
+        if word == AUTO { Some(Self::Phong) } else { Self::from_key(word) }
     }
 
     fn blank() -> Self {
@@ -101,6 +88,18 @@ keys! {
 impl Object for AutoShading {
     const EXPECTED: &'static str = "an object such as {\"tolerance\": 1.0}";
 }
+
+impl Keys for Reflectance {
+    const NAME: &'static str = "Reflectance";
+    const MEANING: &'static str = "`reflectance`: the specular term.";
+    const WORDS: Words<Self> = &named_words::<Self, { Self::CHOICES.len() }>();
+
+    fn blank() -> Self {
+        Self::default()
+    }
+}
+
+impl Object for Reflectance {}
 
 impl Keys for Tolerance {
     const NAME: &'static str = "Tolerance";

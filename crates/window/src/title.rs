@@ -88,31 +88,11 @@ fn counters(report: &FrameReport) -> Vec<String> {
     shown.into_iter().flatten().collect()
 }
 
-fn shading_name(shading: Shading) -> &'static str {
-    match shading {
-        Shading::Flat => "flat",
-        Shading::Gouraud => "Gouraud",
-        Shading::Phong => "Phong",
-        _ => "other shading",
-    }
-}
-
-fn reflectance_name(reflectance: Reflectance) -> &'static str {
-    match reflectance {
-        Reflectance::Phong => "Phong",
-        Reflectance::BlinnPhong => "Blinn–Phong",
-        Reflectance::BlinnPhongMatched => "matched Blinn–Phong",
-    }
-}
-
 fn intensity_name(policy: Intensity) -> Option<&'static str> {
     match policy {
         Intensity::Clamp => None,
         Intensity::Renormalize { smoothing } if smoothing > 0.0 => Some("renormalised smoothly"),
-        Intensity::Renormalize { .. } => Some("renormalised"),
-        Intensity::Reinhard { .. } => Some("Reinhard"),
-        Intensity::Aces => Some("ACES"),
-        _ => Some("other policy"),
+        named => Some(named.name()),
     }
 }
 
@@ -135,12 +115,12 @@ pub(crate) fn title(
     objects: Query<(Option<&Shading>, Option<&Reflectance>), With<ModelView>>,
 ) -> String {
     let shadings = |view: &View| {
-        let own = objects.iter().map(|(own, _)| shading_name(own.copied().unwrap_or(view.shading)));
-        common(own, shading_name(view.shading))
+        let own = objects.iter().map(|(own, _)| own.copied().unwrap_or(view.shading).name());
+        common(own, view.shading.name())
     };
     let reflectances = |view: &View| {
-        let own = objects.iter().map(|(_, own)| reflectance_name(own.copied().unwrap_or(view.reflectance)));
-        common(own, reflectance_name(view.reflectance))
+        let own = objects.iter().map(|(_, own)| own.copied().unwrap_or(view.reflectance).name());
+        common(own, view.reflectance.name())
     };
     Status {
         program: &program,

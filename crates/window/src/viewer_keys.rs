@@ -7,8 +7,7 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_input::keyboard::{KeyCode, KeyboardInput};
 use bevy_input::{ButtonInput, InputPlugin, InputSystems};
-use halfway_lighting::{Camera, Intensity};
-use halfway_lighting::{Reflectance, Shading, Tolerance, ViewTolerance};
+use halfway_lighting::{Camera, Choices, Intensity, Reflectance, Shading, Tolerance, ViewTolerance};
 use halfway_render::ModelView;
 
 /// Keys to compare shadings with, in `PreUpdate`:
@@ -90,9 +89,9 @@ where
 }
 
 fn shading(pressed: Res<Pressed>, mut choosers: Choosers<Shading>, mut commands: Commands) {
-    let keys = [('1', Shading::Flat), ('2', Shading::Gouraud), ('3', Shading::Phong)];
-    for (_, shading) in keys.into_iter().filter(|&(key, _)| pressed.has(key)) {
-        choose(shading, &mut choosers, &mut commands);
+    let keys = ('1'..='9').zip(Shading::CHOICES);
+    for (_, shading) in keys.filter(|&(key, _)| pressed.has(key)) {
+        choose(shading.value, &mut choosers, &mut commands);
     }
 }
 

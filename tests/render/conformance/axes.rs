@@ -63,7 +63,8 @@ const AXES: [&[Value]; 10] = [
         value("gouraud", |setup| setup.object.shading = Some(Shading::Gouraud)),
         value("flat", |setup| setup.object.shading = Some(Shading::Flat)),
         value("diffuse at vertices, specular at fragments", |setup| {
-            setup.object.terms = Some(Terms { diffuse: Frequency::Vertex, specular: Frequency::Fragment });
+            let terms = Terms { diffuse: Frequency::Vertex, specular: Frequency::Fragment };
+            setup.object.shading = Some(Shading::Terms(terms));
         }),
     ],
     &[

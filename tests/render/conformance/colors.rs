@@ -41,7 +41,7 @@ pub(super) const SHADINGS: [Change; 5] = [
 ];
 
 fn terms(scene: &mut Scene, diffuse: Frequency, specular: Frequency) {
-    scene.things.iter_mut().for_each(|thing| thing.terms = Some(Terms { diffuse, specular }));
+    scene.things.iter_mut().for_each(|thing| thing.shading = Some(Shading::Terms(Terms { diffuse, specular })));
 }
 
 const CHANGES: [Change; 10] = [

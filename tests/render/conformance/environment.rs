@@ -103,7 +103,7 @@ pub(super) fn rows() -> Vec<Row> {
     }
     // It counts whatever the terms of lights.
     let mut scene = surrounded();
-    scene.things.iter_mut().for_each(|thing| thing.terms = Some(Terms::both(Frequency::Never)));
+    scene.things.iter_mut().for_each(|thing| thing.shading = Some(Shading::Terms(Terms::both(Frequency::Never))));
     rows.push(Row::new("environment, no terms", scene));
     let mut empty = Scene { things: Vec::new(), ..surrounded() };
     empty.things.push(crate::render::scene::Thing::new(UvSphere::new(0.8, 12, 6)));

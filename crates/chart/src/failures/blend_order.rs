@@ -32,7 +32,7 @@ fn picture(squares: Squares, opacity: f32) -> Result<Image, ChartError> {
         for (which, ends) in order.into_iter().flat_map(|which| parts.iter().map(move |ends| (which, *ends))) {
             let material = Material { opacity, ..Material::emissive(COLORS[which]) };
             let object = show(world, part(which == 0, ends), material, Shading::Flat);
-            world.entity_mut(object).insert(Blend);
+            world.entity_mut(object).insert(AlphaMode::Blend);
         }
     })
 }
@@ -67,7 +67,7 @@ pub(super) fn page() -> Result<FailurePage, ChartError> {
         cause: "Blended objects are drawn whole, from back to front by the middle of each. Of two that pass through each other \
                 each is in front somewhere: half of the pixels blend in the wrong order, wrong by o²·|a − b| for opacities o and \
                 colours a and b, and which half that is jumps as the camera passes.",
-        remedy: "Cut objects where they cross; where a mask will do, cut them out instead of blending (Mask).",
+        remedy: "Cut objects where they cross; where a mask will do, cut them out instead of blending (AlphaMode::Mask).",
         test: "crossing_objects_are_wrong_by_the_square_of_their_opacity",
         figures: vec![figure(
             "blend-order",

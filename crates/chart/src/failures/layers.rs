@@ -24,7 +24,7 @@ fn spawn(world: &mut World, opacity: f32) {
     let [red, green, blue] = GLOW;
     let material = Material { opacity, ..Material::emissive(LinearRgba::rgb(red, green, blue)) };
     let object = show(world, mesh, material, Shading::Flat);
-    world.entity_mut(object).insert(Blend);
+    world.entity_mut(object).insert(AlphaMode::Blend);
 }
 
 /// The exact sum of n layers of opacity o and color c, linear: c·(1 − (1 − o)ⁿ).

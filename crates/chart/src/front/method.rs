@@ -1,5 +1,6 @@
 //! Rendering methods.
 
+use halfway::lighting::Choices;
 use halfway::prelude::*;
 
 /// Methods with one style in a chart.
@@ -43,9 +44,9 @@ impl Family {
     pub fn name(self) -> &'static str {
         match self {
             Self::Constant => "constant colour",
-            Self::Flat => "flat",
-            Self::Gouraud => "Gouraud",
-            Self::Phong => "Phong",
+            Self::Flat => Shading::Flat.name(),
+            Self::Gouraud => Shading::Gouraud.name(),
+            Self::Phong => Shading::Phong.name(),
             Self::Mixed => "mixed terms",
         }
     }
@@ -140,11 +141,14 @@ impl Method {
     }
 
     /// Its differences from others of its terms, as the command line takes them and in words.
-    fn additions(self) -> Vec<(&'static str, &'static str)> {
-        let reflectance = self.reflectance.map(|reflectance| match reflectance {
-            Reflectance::Phong => ("by-phong", "Phong reflectance"),
-            Reflectance::BlinnPhong => ("by-blinn-phong", "Blinn–Phong for Phong"),
-            Reflectance::BlinnPhongMatched => ("by-blinn-phong-matched", "matched Blinn–Phong for Phong"),
+    fn additions(self) -> Vec<(String, String)> {
+        let reflectance = self.reflectance.map(|reflectance| {
+            let key = reflectance.choice().map_or("", |choice| choice.key);
+            let words = match reflectance {
+                Reflectance::Phong => "Phong reflectance".to_owned(),
+                other => format!("{} for Phong", other.name()),
+            };
+            (format!("by-{}", key.replace('_', "-")), words)
         });
         let others = [
             (self.infinite_viewer, ("infinite-viewer", "infinite viewer")),
@@ -152,7 +156,9 @@ impl Method {
             (self.samples == Samples::Four, ("4-samples", "4 samples")),
             (self.pixels > 0.0, ("1-pixel", "detail within 1 pixel")),
         ];
-        reflectance.into_iter().chain(others.into_iter().filter_map(|(is, names)| is.then_some(names))).collect()
+        let others = others.into_iter().filter(|(applies, _)| *applies);
+        let others = others.map(|(_, (id, words))| (id.to_owned(), words.to_owned()));
+        reflectance.into_iter().chain(others).collect()
     }
 
     /// Applies the method to everything in `world`.
@@ -161,7 +167,7 @@ impl Method {
         let objects: Vec<Entity> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
         for object in objects {
             let mut object = world.entity_mut(object);
-            object.insert(self.terms).remove::<Tolerance>();
+            object.insert(Shading::Terms(self.terms)).remove::<Tolerance>();
             if let Some(reflectance) = self.reflectance {
                 object.insert(reflectance);
             }

@@ -3,7 +3,9 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
+use halfway::lighting::Choices;
 use halfway::prelude::*;
 use halfway_chart::timing::TimedShading;
 
@@ -84,20 +86,36 @@ impl BenchArgs {
 }
 
 /// How a scene is shaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BenchShading {
+    /// In a constant colour, without lights.
     Constant,
-    Flat,
-    Gouraud,
-    Phong,
+    /// By one of the shadings that have names.
+    Shaded(Shading),
     /// Phong with all lights on the full mesh, whatever the tolerance. The other rows show the saving of the tolerance
     /// relative to it.
     ExactPhong,
 }
 
 impl BenchShading {
-    pub(super) fn name(self) -> String {
-        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+    /// A constant colour first, exact Phong shading last.
+    pub(super) const ALL: [Self; Shading::CHOICES.len() + 2] = {
+        let mut all = [Self::Constant; Shading::CHOICES.len() + 2];
+        let mut i = 0;
+        while i < Shading::CHOICES.len() {
+            all[1 + i] = Self::Shaded(Shading::CHOICES[i].value);
+            i += 1;
+        }
+        all[1 + i] = Self::ExactPhong;
+        all
+    };
+
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Constant => "constant",
+            Self::Shaded(shading) => shading.choice().map_or("", |choice| choice.key),
+            Self::ExactPhong => "exact-phong",
+        }
     }
 
     /// The tolerance of its pictures, where `said` is that of the command line.
@@ -108,9 +126,18 @@ impl BenchShading {
     pub(super) fn look(self) -> TimedShading {
         match self {
             Self::Constant => TimedShading::Constant,
-            Self::Flat => TimedShading::Shaded(Shading::Flat),
-            Self::Gouraud => TimedShading::Shaded(Shading::Gouraud),
-            Self::Phong | Self::ExactPhong => TimedShading::Shaded(Shading::Phong),
+            Self::Shaded(shading) => TimedShading::Shaded(shading),
+            Self::ExactPhong => TimedShading::Shaded(Shading::Phong),
         }
+    }
+}
+
+impl ValueEnum for BenchShading {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.name()))
     }
 }

@@ -53,7 +53,7 @@ pub(super) fn first_frame(mode: BenchShading, cold: bool) -> Result<FirstFrame, 
 /// The command line of a process for a single frame.
 fn command(program: &std::path::Path, mode: BenchShading, cold: bool) -> Command {
     let mut command = Command::new(program);
-    command.args(["bench", "--once", &mode.name()]).args(std::env::args_os().skip(2));
+    command.args(["bench", "--once", mode.name()]).args(std::env::args_os().skip(2));
     if cold {
         // Mesa's drivers then compile anew; others keep no such cache, or cannot disable it.
         command.env("MESA_SHADER_CACHE_DISABLE", "true");

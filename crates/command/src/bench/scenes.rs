@@ -1,6 +1,5 @@
 //! `halfway bench s1` and the like: the table of one scene.
 
-use clap::ValueEnum;
 use halfway::prelude::*;
 use halfway::render::{Adapter, RenderError};
 use halfway_chart::timing::{FRAME_TIME, Machine, Spread, median_ratio};
@@ -27,7 +26,7 @@ struct Row {
 }
 
 pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
-    let modes = BenchShading::value_variants();
+    let modes = BenchShading::ALL;
     let apps: Result<Vec<App>, Failure> = modes.iter().map(|mode| timed.app(args, *mode)).collect();
     let mut apps = apps?;
     let times = cpu::timed(&mut apps, args.rounds)?;
@@ -40,7 +39,7 @@ pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
             mode,
             frame: Spread::from_values(own),
             to_constant: median_ratio(own, &times[0].0),
-            to_exact: median_ratio(own, &times[BenchShading::ExactPhong as usize].0),
+            to_exact: median_ratio(own, &times[times.len() - 1].0),
             cpu: cpu.clone(),
             report,
             warm: first_frame(mode, false)?,

@@ -199,7 +199,7 @@ impl FeatureScene {
             surface.insert(BackMaterial(back));
         }
         if feature.blend {
-            surface.insert(Blend);
+            surface.insert(AlphaMode::Blend);
         }
     }
 }

@@ -116,7 +116,7 @@ impl LitPatches {
         share: f64,
         shared: Shared,
     ) -> Result<Option<LitObject<'a>>, InvalidValue> {
-        let &ShownObject { reflecting, paint, blend, terms, model_view, mut tolerance, .. } = object;
+        let &ShownObject { reflecting, paint, terms, model_view, mut tolerance, .. } = object;
         if let Some(wrong) = &object.wrong_paint {
             return Err(wrong.clone());
         }
@@ -128,8 +128,12 @@ impl LitPatches {
         }
         tolerance.validate()?;
         tolerance.steps *= share as f32;
-        let circumstances =
-            Circumstances { terms, blend, mirrored: model_view.mirrored, opposite_normals: geometry.opposite_normals };
+        let circumstances = Circumstances {
+            terms,
+            blend: paint.blend,
+            mirrored: model_view.mirrored,
+            opposite_normals: geometry.opposite_normals,
+        };
         let key = reflecting.key(look, circumstances, shared);
         let material = look.material;
         let sphere = geometry.patches.whole.sphere(model_view);
@@ -138,7 +142,7 @@ impl LitPatches {
             key,
             material,
             depth: -sphere.0.z,
-            twins_before: if blend { 0 } else { self.table.twins_before(sphere) },
+            twins_before: if paint.blend { 0 } else { self.table.twins_before(sphere) },
             maps: object.maps().map_or(0, |maps| self.table.maps(&maps)),
             form: object.form(),
             geometry,

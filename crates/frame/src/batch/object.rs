@@ -127,7 +127,7 @@ impl Reflecting<'_> {
     fn record(&self, ambient: Vec3) -> SurfaceRecord {
         let [front, back] = self.sides().map(|side| {
             let (coefficients, painted) = (Coefficients::from(side), self.is_painted());
-            MaterialRecord::new(&coefficients, side.opacity, self.reflectance, ambient, painted)
+            MaterialRecord::new(&coefficients, self.reflectance, ambient, painted)
         });
         SurfaceRecord { front, back, ..SurfaceRecord::default() }
     }
@@ -187,7 +187,7 @@ impl Reflecting<'_> {
 }
 
 /// The first number of an object's images, mask or solid that cannot be used.
-pub(super) fn wrong_paint((_, maps, mask, solid): PaintOf) -> Option<InvalidValue> {
+pub(super) fn wrong_paint((_, maps, alpha, solid): PaintOf) -> Option<InvalidValue> {
     let of_maps = maps.and_then(Maps::wrong).map(|WrongMap { kind, field, value, expected }| {
         let field = format!("{}.{field}", kind.name());
         Fields::of("Maps").error(&field, Problem::Number { value, expected })
@@ -197,5 +197,5 @@ pub(super) fn wrong_paint((_, maps, mask, solid): PaintOf) -> Option<InvalidValu
         let problem = Problem::Number { value: wrong.value, expected: wrong.expected };
         Some(Fields::of("SolidTexture").error(wrong.field, problem))
     };
-    of_maps.or_else(|| mask.and_then(|mask| mask.validate().err())).or_else(of_solid)
+    of_maps.or_else(|| alpha.and_then(|alpha| alpha.validate().err())).or_else(of_solid)
 }

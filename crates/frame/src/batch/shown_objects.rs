@@ -5,14 +5,14 @@ use crate::batch::object::{Reflecting, wrong_paint};
 use crate::batch::table::MapsUse;
 use crate::geometry::meshes::{Form, Geometries, Geometry, Paint, PaintComponents};
 use crate::lights::surroundings::Surroundings;
-use crate::lights::terms::Chosen;
+use crate::lights::terms::shown_terms;
 use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix, Visible};
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
 use halfway_asset::{AssetId, Assets};
 use halfway_lighting::{
-    BackMaterial, Blend, Faces, InvalidValue, Material, Reflectance, Terms, Tolerance, ViewTolerance,
+    BackMaterial, Faces, InvalidValue, Material, Reflectance, Shading, Terms, Tolerance, ViewTolerance,
 };
 use halfway_mesh::{Mesh, Mesh3d};
 
@@ -22,11 +22,10 @@ type ObjectComponents = (
     Option<&'static BackMaterial>,
     Option<&'static Reflectance>,
     Option<&'static Faces>,
-    Has<Blend>,
     PaintComponents,
     Option<&'static Tolerance>,
     (&'static ModelView, &'static NormalMatrix),
-    &'static Chosen,
+    Option<&'static Shading>,
     Option<&'static Name>,
 );
 
@@ -53,7 +52,6 @@ pub(super) struct ShownObject<'a> {
     pub(super) wrong_paint: Option<InvalidValue>,
     /// An environment would light it, had it no images.
     pub(super) lacks_environment: bool,
-    pub(super) blend: bool,
     pub(super) terms: Terms,
     pub(super) tolerance: Tolerance,
     pub(super) model_view: &'a ModelView,
@@ -67,7 +65,7 @@ impl ShownObjects<'_, '_> {
     }
 
     fn get(&self, entity: Entity, lights_images: bool) -> Option<ShownObject<'_>> {
-        let (mesh, material, back, reflectance, faces, blend, components, tolerance, placed, chosen, name) =
+        let (mesh, material, back, reflectance, faces, components, tolerance, placed, shading, name) =
             self.objects.get(entity).ok()?;
         let of_mesh = |mesh| Paint::new(mesh, components, self.surroundings.are_there());
         let mut paint = self.meshes.get(&mesh.0).map_or(Paint::default(), of_mesh);
@@ -94,8 +92,7 @@ impl ShownObjects<'_, '_> {
             paint,
             wrong_paint: wrong_paint(components),
             lacks_environment,
-            blend,
-            terms: chosen.0,
+            terms: shown_terms(shading, &self.view),
             tolerance: tolerance.copied().unwrap_or(self.of_view.0),
             model_view: placed.0,
             normal_matrix: placed.1,
@@ -105,7 +102,7 @@ impl ShownObjects<'_, '_> {
 
 impl ShownObject<'_> {
     pub(super) fn form(&self) -> Form {
-        Form::new(self.terms, self.blend, &self.paint)
+        Form::new(self.terms, &self.paint)
     }
 
     pub(super) fn geometry<'b>(&self, geometries: &'b Geometries) -> Option<&'b Geometry> {

@@ -3,15 +3,16 @@
 use crate::geometry::patches::{MeshTriangles, Patches, Prepared};
 use crate::geometry::workshop::Workshop;
 use crate::lights::surroundings::Surroundings;
-use crate::lights::terms::{Chosen, by_vertex_shader};
+use crate::lights::terms::{by_vertex_shader, shown_terms};
 use crate::report::FrameReport;
 use crate::values::WaitsForLevels;
+use crate::view::camera::View;
 use crate::view::matrices::Visible;
 use bevy_ecs::prelude::*;
 use bevy_math::{Vec2, Vec4};
 use bevy_platform::collections::HashMap;
 use halfway_asset::{AssetId, Assets};
-use halfway_lighting::{Blend, Frequency, Mask, Terms, Tolerance, VertexColors, ViewTolerance};
+use halfway_lighting::{AlphaMode, Frequency, Shading, Terms, Tolerance, VertexColors, ViewTolerance};
 use halfway_mesh::{Mesh, Mesh3d};
 use halfway_texture::{MapKind, Maps, SolidTexture, SurfaceMap, UvSet};
 use std::sync::Arc;
@@ -53,10 +54,10 @@ pub struct Form {
 
 impl Form {
     /// Blended triangles are drawn in the order of the mesh.
-    pub(crate) fn new(terms: Terms, blend: bool, paint: &Paint) -> Self {
+    pub(crate) fn new(terms: Terms, paint: &Paint) -> Self {
         let flat = terms.has(Frequency::Triangle);
         let tangents = paint.maps[MapKind::Normal as usize].filter(|_| !flat).map(|map| map.uv_set);
-        Self { flat, ordered: blend, colored: paint.colored, mapped: paint.is_mapped(), tangents }
+        Self { flat, ordered: paint.blend, colored: paint.colored, mapped: paint.is_mapped(), tangents }
     }
 
     /// Whether it may have levels of detail. Blended triangles are drawn in the order of the mesh, and tangents make
@@ -66,7 +67,7 @@ impl Form {
     }
 }
 
-/// The parts of an object's appearance beside its material: colors, images, mask and solid.
+/// The parts of an object's appearance beside its material: colors, images, mask or blending, and solid.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Paint<'a> {
     /// The colors of the vertices.
@@ -75,6 +76,8 @@ pub(crate) struct Paint<'a> {
     pub maps: [Option<&'a SurfaceMap>; MapKind::COUNT],
     /// The opacity below which there is nothing.
     pub(crate) mask: Option<f32>,
+    /// Whether it is blended.
+    pub(crate) blend: bool,
     /// The solid that it is cut from.
     pub solid: Option<&'a SolidTexture>,
     /// An environment lights it.
@@ -83,19 +86,21 @@ pub(crate) struct Paint<'a> {
 
 /// The components that paint an object.
 pub(crate) type PaintComponents =
-    (Option<&'static VertexColors>, Option<&'static Maps>, Option<&'static Mask>, Option<&'static SolidTexture>);
+    (Option<&'static VertexColors>, Option<&'static Maps>, Option<&'static AlphaMode>, Option<&'static SolidTexture>);
 
 /// The same of one object.
-pub(crate) type PaintOf<'a> = (Option<&'a VertexColors>, Option<&'a Maps>, Option<&'a Mask>, Option<&'a SolidTexture>);
+pub(crate) type PaintOf<'a> =
+    (Option<&'a VertexColors>, Option<&'a Maps>, Option<&'a AlphaMode>, Option<&'a SolidTexture>);
 
 impl<'a> Paint<'a> {
-    pub(crate) fn new(mesh: &Mesh, (colors, maps, mask, solid): PaintOf<'a>, surrounded: bool) -> Self {
+    pub(crate) fn new(mesh: &Mesh, (colors, maps, alpha, solid): PaintOf<'a>, surrounded: bool) -> Self {
         let colored = mesh.colors().is_some() && colors != Some(&VertexColors::Ignore);
         let has_uvs = [0, 1].map(|set| mesh.uv_set(set).is_some());
         let maps = maps.map_or_else(Default::default, |maps| maps.shown(has_uvs));
+        let alpha = alpha.copied().unwrap_or_default();
         // No opacity is below 0.
-        let mask = mask.map(|mask| mask.0).filter(|cutoff| *cutoff > 0.0);
-        Self { colored, maps, mask, solid, surrounded }
+        let mask = alpha.cutoff().filter(|cutoff| *cutoff > 0.0);
+        Self { colored, maps, mask, blend: alpha.blends(), solid, surrounded }
     }
 
     /// Whether there are images, a mask, a solid or an environment.
@@ -206,7 +211,7 @@ pub(crate) fn shades_pixels_alone(terms: Terms) -> bool {
 }
 
 /// The components that decide how an object's mesh is laid out.
-type LaidOut = (&'static Mesh3d, &'static Chosen, Has<Blend>, PaintComponents, Option<&'static Tolerance>);
+type LaidOut = (&'static Mesh3d, Option<&'static Shading>, PaintComponents, Option<&'static Tolerance>);
 
 /// Lays out the meshes of visible objects that are not yet, for the way they are shaded.
 ///
@@ -216,6 +221,7 @@ pub(crate) fn lay_out(
     meshes: Res<Assets<Mesh>>,
     objects: Query<LaidOut>,
     visible: Res<Visible>,
+    view: Res<View>,
     surroundings: Res<Surroundings>,
     of_view: Res<ViewTolerance>,
     waits: Res<WaitsForLevels>,
@@ -225,12 +231,13 @@ pub(crate) fn lay_out(
 ) {
     workshop.collect();
     let mut last = None;
-    for (Mesh3d(handle), chosen, blend, paint, tolerance) in objects.iter_many(&visible.0).flatten() {
+    for (Mesh3d(handle), shading, paint, tolerance) in objects.iter_many(&visible.0).flatten() {
         let Some(mesh) = meshes.get(handle) else { continue };
         let paint = Paint::new(mesh, paint, surroundings.are_there());
-        let wanted = (handle.id(), Form::new(chosen.0, blend, &paint));
+        let terms = shown_terms(shading, &view);
+        let wanted = (handle.id(), Form::new(terms, &paint));
         let pixels = tolerance.unwrap_or(&of_view.0).pixels;
-        let has_levels = pixels > 0.0 && shades_pixels_alone(chosen.0) && wanted.1.may_have_levels();
+        let has_levels = pixels > 0.0 && shades_pixels_alone(terms) && wanted.1.may_have_levels();
         if last.replace((wanted, has_levels)) != Some((wanted, has_levels)) {
             let levels = if has_levels { workshop.levels(wanted.0, mesh, waits.0) } else { None };
             geometries.ensure(wanted, mesh, levels);

@@ -148,21 +148,18 @@ impl Reflector {
         Listing { material: self.larger_side(), reflectance, terms, view, tolerance }
     }
 
-    /// Coefficients that are nowhere below either side's, so that bounds hold for both.
+    /// Coefficients that are nowhere below either side's, so that bounds hold for both; black for terms that are not
+    /// shaded.
     fn larger_side(&self) -> Coefficients<f32> {
         let [front, back] = &self.sides;
-        let larger = |a: [f32; 3], b: [f32; 3], term: Frequency| {
-            if term == Frequency::Never { [0.0; 3] } else { [0, 1, 2].map(|k| a[k].max(b[k])) }
-        };
-        let Terms { diffuse, specular } = self.terms;
-        Coefficients {
-            ka: larger(front.ka, back.ka, diffuse),
-            kd: larger(front.kd, back.kd, diffuse),
-            ks: larger(front.ks, back.ks, specular),
-            // The smaller exponent is the wider highlight.
-            shininess: front.shininess.min(back.shininess),
-            ..*front
+        let mut larger = front.brightest(back);
+        if self.terms.diffuse == Frequency::Never {
+            (larger.ka, larger.kd) = ([0.0; 3], [0.0; 3]);
         }
+        if self.terms.specular == Frequency::Never {
+            larger.ks = [0.0; 3];
+        }
+        larger
     }
 }
 
@@ -174,7 +171,7 @@ mod tests {
     /// The list of a small sphere's diffuse terms at the fragments.
     fn list(lists: &mut LightLists, lights: &Lights, center: [f32; 3]) -> LightRange {
         let kd = [1.0; 3];
-        let side = Coefficients { ka: [0.0; 3], kd, ks: [0.0; 3], ke: [0.0; 3], shininess: 1.0 };
+        let side = Coefficients { kd, shininess: 1.0, ..Coefficients::black() };
         let terms = Terms { diffuse: Frequency::Fragment, specular: Frequency::Never };
         let reflector = Reflector { sides: [side; 2], reflectance: Reflectance::Phong, terms };
         let view = Eye::in_eye_space(halfway_lighting::Viewer::Local);

@@ -7,14 +7,9 @@ use crate::view::matrices::Visible;
 use bevy_ecs::prelude::*;
 use halfway_lighting::{Frequency, Shading, Terms};
 
-/// Where the frame shades each term of an object. Holds after [`RenderSet::Choose`](crate::sets::RenderSet::Choose).
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Chosen(pub Terms);
-
-impl Default for Chosen {
-    fn default() -> Self {
-        Self(Terms::NONE)
-    }
+/// Where the terms of an object are shaded: as it says itself, else as the view says.
+pub(crate) fn shown_terms(own: Option<&Shading>, view: &View) -> Terms {
+    own.copied().unwrap_or(view.shading).into()
 }
 
 /// Whether the diffuse and the specular term are evaluated by the vertex shader: at each vertex, or at the one vertex
@@ -28,22 +23,20 @@ pub fn by_fragment_shader(terms: Terms) -> [bool; 2] {
     [terms.diffuse, terms.specular].map(|term| term == Frequency::Fragment)
 }
 
-type Wishes = (&'static mut Chosen, Option<&'static Shading>, Option<&'static Terms>, Option<&'static Name>);
-
-pub(crate) fn choose(
-    mut objects: Query<Wishes>,
+/// Reports objects whose terms cannot be drawn together, and leaves them out.
+pub(crate) fn check(
+    objects: Query<(Option<&Shading>, Option<&Name>)>,
     mut visible: ResMut<Visible>,
     view: Res<View>,
     mut report: ResMut<FrameReport>,
 ) {
     visible.0.retain(|&entity| {
-        let Ok((mut chosen, shading, terms, name)) = objects.get_mut(entity) else { return false };
-        let terms = terms.copied().unwrap_or_else(|| shading.copied().unwrap_or(view.shading).into());
-        if let Err(source) = terms.validate() {
+        let Ok((shading, name)) = objects.get(entity) else { return false };
+        let checked = shading.unwrap_or(&view.shading).validate();
+        if let Err(source) = checked {
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
             return false;
         }
-        chosen.set_if_neq(Chosen(terms));
         true
     });
 }

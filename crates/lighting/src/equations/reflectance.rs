@@ -1,5 +1,6 @@
 //! Reflection at a surface: the diffuse and the two specular terms.
 
+use super::scene::Coefficients;
 use super::vector::{add, dot, neg, normalize, scale, sub};
 use super::{NORMAL_MIN, Real};
 use crate::{Reflectance, matched_shininess};
@@ -58,9 +59,15 @@ pub fn specular_exponent<T: Real>(reflectance: Reflectance, shininess: T) -> T {
     }
 }
 
-/// The specular term S of `reflectance` for a material's shininess.
-pub fn specular_term<T: Real>(reflectance: Reflectance, n: [T; 3], l: [T; 3], v: [T; 3], shininess: T) -> T {
-    let exponent = specular_exponent(reflectance, shininess);
+/// The specular term S of `reflectance` for a material.
+pub fn specular_term<T: Real>(
+    reflectance: Reflectance,
+    n: [T; 3],
+    l: [T; 3],
+    v: [T; 3],
+    material: &Coefficients<T>,
+) -> T {
+    let exponent = specular_exponent(reflectance, material.shininess);
     match reflectance {
         Reflectance::Phong => specular_phong(n, l, v, exponent),
         Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => specular_blinn_phong(n, l, v, exponent),

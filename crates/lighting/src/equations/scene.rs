@@ -16,7 +16,7 @@ pub struct ShadedPoint<T> {
     pub normal: [T; 3],
 }
 
-/// The reflectances of a [`Material`]; see there for their meaning and ranges.
+/// The numbers of a [`Material`] as the equations take them; see there for their meaning and ranges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficients<T> {
     /// Ambient.
@@ -29,6 +29,8 @@ pub struct Coefficients<T> {
     pub ke: [T; 3],
     /// α or β.
     pub shininess: T,
+    /// Opacity.
+    pub opacity: T,
 }
 
 impl<T: Real> From<&Material> for Coefficients<T> {
@@ -39,11 +41,33 @@ impl<T: Real> From<&Material> for Coefficients<T> {
             ks: rgb(material.specular),
             ke: rgb(material.emission),
             shininess: real(material.shininess),
+            opacity: real(material.opacity),
         }
     }
 }
 
 impl<T: Real> Coefficients<T> {
+    /// Those of an opaque surface that gives back no light, with a highlight as wide as the lit side.
+    pub fn black() -> Self {
+        let black = [T::zero(); 3];
+        Self { ka: black, kd: black, ks: black, ke: black, shininess: T::zero(), opacity: T::one() }
+    }
+
+    /// Coefficients under which no light adds less than under either of two, so that bounds hold for both. What lights
+    /// have no part in, emission and opacity, is this one's.
+    #[must_use]
+    pub fn brightest(&self, other: &Self) -> Self {
+        let larger = |a: [T; 3], b: [T; 3]| [0, 1, 2].map(|channel| a[channel].max(b[channel]));
+        Self {
+            ka: larger(self.ka, other.ka),
+            kd: larger(self.kd, other.kd),
+            ks: larger(self.ks, other.ks),
+            // The smaller exponent is the wider highlight.
+            shininess: self.shininess.min(other.shininess),
+            ..*self
+        }
+    }
+
     /// The same where the surface has this color: ka and kd times it, each channel by itself.
     #[must_use]
     pub fn tinted(self, color: [T; 3]) -> Self {

@@ -5,7 +5,7 @@ use crate::LinearRgba;
 use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
-use crate::equations::{Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint, unit};
+use crate::equations::{Coefficients, Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint, unit};
 use crate::field::{self, Described, Field, rgb};
 use crate::invalid::{Fields, InvalidValue};
 use crate::light_colors::{Colors, meaning};
@@ -122,9 +122,9 @@ impl<T: Real> LightSource<T> for Directional<T> {
         surface: &ShadedPoint<T>,
         view: &Eye<T>,
         reflectance: Reflectance,
-        shininess: T,
+        material: &Coefficients<T>,
     ) -> Irradiance<T> {
-        self.colors.arriving(&self.arriving(), T::one(), (surface, view), (reflectance, shininess))
+        self.colors.arriving(&self.arriving(), T::one(), (surface, view), (reflectance, material))
     }
 
     fn steady_ambient(&self) -> [T; 3] {
@@ -154,8 +154,8 @@ impl LightKind for DirectionalLight {
     const FUNCTION: &'static str = "directional_light";
     const WGSL: &'static str = "
 // Parallel rays.
-fn directional_light(light: Light, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
-    return irradiance(light, Incidence(light.position, GRAZING, 1.0), n, v, shininess, terms);
+fn directional_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Material, terms: Terms) -> Irradiance {
+    return irradiance(light, Incidence(light.position, GRAZING, 1.0), n, v, material, terms);
 }
 ";
     type Source<T: Real> = Directional<T>;

@@ -6,7 +6,7 @@ use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::{add, dot, scale};
-use crate::equations::{self, Eye, Incidence, Irradiance, Real, ShadedPoint, unit};
+use crate::equations::{self, Coefficients, Eye, Incidence, Irradiance, Real, ShadedPoint, unit};
 use crate::falloff::number;
 use crate::field::{self, Described, Field, rgb};
 use crate::invalid::{Fields, InvalidValue};
@@ -116,7 +116,7 @@ impl<T: Real> LightSource<T> for Hemisphere<T> {
         None
     }
 
-    fn irradiance(&self, surface: &ShadedPoint<T>, _: &Eye<T>, _: Reflectance, _: T) -> Irradiance<T> {
+    fn irradiance(&self, surface: &ShadedPoint<T>, _: &Eye<T>, _: Reflectance, _: &Coefficients<T>) -> Irradiance<T> {
         let black = [T::zero(); 3];
         let diffuse = self.mixture(dot(surface.normal, self.up));
         Irradiance { ambient: black, diffuse, specular: black }
@@ -147,7 +147,7 @@ impl LightKind for HemisphereLight {
     const FUNCTION: &'static str = "hemisphere_light";
     const WGSL: &'static str = "
 // From all around: the record has d as the position, the sky as the diffuse and the ground as the specular color.
-fn hemisphere_light(light: Light, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
+fn hemisphere_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Material, terms: Terms) -> Irradiance {
     var result = Irradiance();
     if terms.diffuse {
         let share = clamp(0.5 + 0.5 * dot(n, light.position), 0.0, 1.0);

@@ -36,7 +36,7 @@ use glam::{DAffine3, DVec3};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::normalize_or_zero;
-use crate::equations::{Eye, Incidence, Irradiance, Real, ShadedPoint};
+use crate::equations::{Coefficients, Eye, Incidence, Irradiance, Real, ShadedPoint};
 use crate::field::Described;
 use crate::invalid::InvalidValue;
 use crate::record::LightRecord;
@@ -94,13 +94,13 @@ pub trait LightSource<T: Real>: Copy + Debug + PartialEq {
     /// Its direction and strength at a point; `None` for light from all around.
     fn incidence(&self, surface: &ShadedPoint<T>) -> Option<Incidence<T>>;
 
-    /// Its light at a point whose material has this shininess.
+    /// Its light at a point of this material, before the material's reflectances.
     fn irradiance(
         &self,
         surface: &ShadedPoint<T>,
         view: &Eye<T>,
         reflectance: Reflectance,
-        shininess: T,
+        material: &Coefficients<T>,
     ) -> Irradiance<T>;
 
     /// Its ambient colour, where that is the same at every point; else black.
@@ -237,7 +237,7 @@ pub fn wgsl() -> &'static str {
         text.push_str(
             "
 // A light of any kind.
-fn any_light(light: Light, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
+fn any_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Material, terms: Terms) -> Irradiance {
 ",
         );
         for kind in Kind::ALL {
@@ -249,7 +249,7 @@ fn any_light(light: Light, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: 
                 &number.to_string(),
                 "u {\n",
             ]);
-            text.extend(["            return ", function, "(light, p, n, v, shininess, terms);\n        }\n    }\n"]);
+            text.extend(["            return ", function, "(light, p, n, v, material, terms);\n        }\n    }\n"]);
         }
         text.push_str("    return Irradiance();\n}\n");
         text
@@ -346,10 +346,10 @@ macro_rules! light_kinds {
                 surface: &ShadedPoint<T>,
                 view: &Eye<T>,
                 reflectance: Reflectance,
-                shininess: T,
+                material: &Coefficients<T>,
             ) -> Irradiance<T> {
                 match self {
-                    $(Self::$kind(source) => source.irradiance(surface, view, reflectance, shininess)),*
+                    $(Self::$kind(source) => source.irradiance(surface, view, reflectance, material)),*
                 }
             }
 

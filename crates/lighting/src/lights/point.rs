@@ -6,7 +6,7 @@ use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::{length, toward};
-use crate::equations::{COINCIDENT, Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint};
+use crate::equations::{COINCIDENT, Coefficients, Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint};
 use crate::falloff::{Attenuation, ConeTerms, attenuation, number, range_window};
 use crate::field::{self, Described, Field, FieldPlace, rgb};
 use crate::invalid::{Fields, InvalidValue};
@@ -197,10 +197,10 @@ impl<T: Real> Point<T> {
         &self,
         incident: &Incidence<T>,
         seen: (&ShadedPoint<T>, &Eye<T>),
-        gloss: (Reflectance, T),
+        reflecting: (Reflectance, &Coefficients<T>),
     ) -> Irradiance<T> {
         let ambient = if self.attenuate_ambient { incident.weight } else { T::one() };
-        self.colors.arriving(incident, ambient, seen, gloss)
+        self.colors.arriving(incident, ambient, seen, reflecting)
     }
 
     /// The terms that may be above 0 on a patch, with or without a cone.
@@ -303,9 +303,9 @@ impl<T: Real> LightSource<T> for Point<T> {
         surface: &ShadedPoint<T>,
         view: &Eye<T>,
         reflectance: Reflectance,
-        shininess: T,
+        material: &Coefficients<T>,
     ) -> Irradiance<T> {
-        self.arriving(&self.arriving_at(surface), (surface, view), (reflectance, shininess))
+        self.arriving(&self.arriving_at(surface), (surface, view), (reflectance, material))
     }
 
     fn steady_ambient(&self) -> [T; 3] {
@@ -330,8 +330,8 @@ impl LightKind for PointLight {
     const FUNCTION: &'static str = "point_light";
     const WGSL: &'static str = "
 // From a point, in all directions.
-fn point_light(light: Light, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
-    return irradiance(light, incidence(light, false, p, n), n, v, shininess, terms);
+fn point_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Material, terms: Terms) -> Irradiance {
+    return irradiance(light, incidence(light, false, p, n), n, v, material, terms);
 }
 ";
     type Source<T: Real> = Point<T>;

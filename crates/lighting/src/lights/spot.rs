@@ -7,7 +7,7 @@ use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView, Po
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::{dot, neg};
-use crate::equations::{Eye, Incidence, Irradiance, Real, ShadedPoint, unit};
+use crate::equations::{Coefficients, Eye, Incidence, Irradiance, Real, ShadedPoint, unit};
 use crate::falloff::{Attenuation, Cone, ConeTerms, spot_factor};
 use crate::field::{Described, Field, FieldPlace, rgb};
 use crate::invalid::{Fields, InvalidValue};
@@ -140,9 +140,9 @@ impl<T: Real> LightSource<T> for Spot<T> {
         surface: &ShadedPoint<T>,
         view: &Eye<T>,
         reflectance: Reflectance,
-        shininess: T,
+        material: &Coefficients<T>,
     ) -> Irradiance<T> {
-        self.point.arriving(&self.arriving_at(surface), (surface, view), (reflectance, shininess))
+        self.point.arriving(&self.arriving_at(surface), (surface, view), (reflectance, material))
     }
 
     fn steady_ambient(&self) -> [T; 3] {
@@ -167,8 +167,8 @@ impl LightKind for SpotLight {
     const FUNCTION: &'static str = "spot_light";
     const WGSL: &'static str = "
 // From a point, into a cone.
-fn spot_light(light: Light, p: vec3f, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
-    return irradiance(light, incidence(light, true, p, n), n, v, shininess, terms);
+fn spot_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Material, terms: Terms) -> Irradiance {
+    return irradiance(light, incidence(light, true, p, n), n, v, material, terms);
 }
 ";
     type Source<T: Real> = Spot<T>;

@@ -21,7 +21,7 @@ fn the_ends_of_f32_stay_finite_and_non_negative() {
         specular: brightest,
         emission: brightest,
         shininess: f32::MAX,
-        opacity: 1.0,
+        ..Material::DEFAULT
     };
     material.validate().expect("the largest values are allowed");
     let coordinates = [0.0, f32::MIN_POSITIVE, -1.0, 1e19, -f32::MAX, f32::MAX];

@@ -5,7 +5,7 @@ use core::f64::consts::FRAC_PI_4;
 use halfway_lighting::equations::specular_term;
 use halfway_lighting::{Reflectance, matched_shininess};
 
-use crate::support::{close, in_plane};
+use crate::support::{close, glossy, in_plane};
 
 /// Nodes of the quadrature: ψ and weight, over the part of 0…π/4 where a lobe of exponent α is above e⁻²⁰⁰.
 ///
@@ -105,9 +105,9 @@ fn matched_highlights_are_phongs_on_a_surface() {
             let psi = FRAC_PI_4 * f64::from(step) / 200.0;
             for l_angle in [-0.7, 0.0, 0.7] {
                 let (l, v) = (in_plane(l_angle), in_plane(2.0 * psi - l_angle));
-                let phong = specular_term(Reflectance::Phong, n, l, v, shininess);
-                let matched = specular_term(Reflectance::BlinnPhongMatched, n, l, v, shininess);
-                let bare = specular_term(Reflectance::BlinnPhong, n, l, v, 4.0 * shininess);
+                let phong = specular_term(Reflectance::Phong, n, l, v, &glossy(shininess));
+                let matched = specular_term(Reflectance::BlinnPhongMatched, n, l, v, &glossy(shininess));
+                let bare = specular_term(Reflectance::BlinnPhong, n, l, v, &glossy(4.0 * shininess));
                 let name = format!("α {shininess}, ψ {psi}, l at {l_angle}");
                 close(matched, phong, 0.08 / shininess, &name);
                 close(bare, phong, 0.16 / shininess, &format!("β = 4α, {name}"));

@@ -66,7 +66,7 @@ fn material(channel: fn() -> BoxedStrategy<f32>, shininess: BoxedStrategy<f32>) 
         specular,
         emission,
         shininess,
-        opacity: 1.0,
+        ..Material::DEFAULT
     })
 }
 

@@ -7,7 +7,7 @@ use halfway_lighting::equations::{
 };
 use halfway_lighting::{Reflectance, matched_shininess};
 
-use crate::support::{ALL_REFLECTANCES, Pcg, close, close3, in_plane};
+use crate::support::{ALL_REFLECTANCES, Pcg, close, close3, glossy, in_plane};
 
 const N: [f64; 3] = [0.0, 0.0, 1.0];
 
@@ -60,7 +60,7 @@ fn nothing_from_behind() {
         assert_eq!(diffuse_term(N, l), 0.0);
         for reflectance in ALL_REFLECTANCES {
             for shininess in [0.0, 1.0, 50.0] {
-                let s = specular_term(reflectance, N, l, in_plane(-1.5), shininess);
+                let s = specular_term(reflectance, N, l, in_plane(-1.5), &glossy(shininess));
                 assert_eq!(s, 0.0, "{reflectance:?} {shininess} at {degrees}");
             }
         }
@@ -109,10 +109,10 @@ fn exponents_of_the_reflectances() {
     assert_eq!(specular_exponent(Reflectance::BlinnPhong, 20.0), 20.0);
     assert_eq!(specular_exponent(Reflectance::BlinnPhongMatched, 20.0), matched_shininess(20.0));
     let (l, v) = (in_plane(0.4), in_plane(-0.2));
-    assert_eq!(specular_term(Reflectance::Phong, N, l, v, 9.0), specular_phong(N, l, v, 9.0));
-    assert_eq!(specular_term(Reflectance::BlinnPhong, N, l, v, 9.0), specular_blinn_phong(N, l, v, 9.0));
+    assert_eq!(specular_term(Reflectance::Phong, N, l, v, &glossy(9.0)), specular_phong(N, l, v, 9.0));
+    assert_eq!(specular_term(Reflectance::BlinnPhong, N, l, v, &glossy(9.0)), specular_blinn_phong(N, l, v, 9.0));
     let matched = specular_blinn_phong(N, l, v, matched_shininess(9.0));
-    assert_eq!(specular_term(Reflectance::BlinnPhongMatched, N, l, v, 9.0), matched);
+    assert_eq!(specular_term(Reflectance::BlinnPhongMatched, N, l, v, &glossy(9.0)), matched);
 }
 
 #[test]

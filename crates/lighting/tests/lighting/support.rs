@@ -34,6 +34,11 @@ pub(crate) fn gray(value: f32) -> LinearRgba {
     LinearRgba::rgb(value, value, value)
 }
 
+/// Coefficients of this shininess.
+pub(crate) fn glossy(shininess: f64) -> Coefficients<f64> {
+    Coefficients { shininess, ..Coefficients::black() }
+}
+
 /// A material with no two coefficients alike, so that a mix-up shows.
 pub(crate) fn distinct_material(shininess: f32) -> Material {
     Material {
@@ -42,7 +47,7 @@ pub(crate) fn distinct_material(shininess: f32) -> Material {
         specular: LinearRgba::rgb(0.875, 1.0, 0.0625),
         emission: LinearRgba::rgb(0.03125, 0.0, 0.015_625),
         shininess,
-        opacity: 1.0,
+        ..Material::DEFAULT
     }
 }
 

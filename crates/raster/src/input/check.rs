@@ -4,7 +4,7 @@ use crate::error::{LARGEST_SIDE, RasterError};
 use crate::input::pass::{DrawCall, DrawMaps, Output, Pass};
 use halfway_lighting::Frequency;
 use halfway_lighting::lights::Kind;
-use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
+use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, SurfaceLights, SurfaceRecord};
 use halfway_texture::environment::SurroundingsData;
 use halfway_texture::{MapKind, SolidTexture};
 
@@ -119,15 +119,8 @@ fn check_light(index: usize, light: &LightRecord) -> Result<(), RasterError> {
 
 fn check_surface(index: usize, surface: &SurfaceRecord, pass: &Pass) -> Result<(), RasterError> {
     for material in [&surface.front, &surface.back] {
-        let MaterialRecord { base, diffuse, specular, emission, ambient, shininess, opacity, .. } = material;
-        from_zero("surface", index, "base", base)?;
-        from_zero("surface", index, "diffuse", diffuse)?;
-        from_zero("surface", index, "specular", specular)?;
-        from_zero("surface", index, "emission", emission)?;
-        from_zero("surface", index, "ambient", ambient)?;
-        from_zero("surface", index, "shininess", &[*shininess])?;
-        if !(0.0..=1.0).contains(opacity) {
-            return wrong("surface", index, "opacity", *opacity, "0 to 1");
+        if let Some((field, value)) = material.wrong() {
+            return wrong("surface", index, field.name, value, field.range.expected);
         }
     }
     let range = |field, range: &LightRange| {

@@ -79,7 +79,7 @@ impl State {
             colored: draw.colored,
             clockwise: draw.clockwise,
             maps: draw.maps,
-            glosses: [&surface.front, &surface.back].map(|side| Gloss::new(draw.reflectance, side.shininess)),
+            glosses: [&surface.front, &surface.back].map(|side| Gloss::new(draw.reflectance, side)),
         }
     }
 

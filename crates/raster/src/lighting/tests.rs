@@ -74,18 +74,16 @@ fn random_case(random: &mut Rng) -> Case {
     }
 }
 
-const SIDE: MaterialRecord = MaterialRecord {
-    base: [0.1, 0.2, 0.3],
-    diffuse: [0.9, 0.7, 0.5],
-    specular: [0.4, 0.6, 0.8],
-    ambient: [0.3, 0.2, 0.1],
-    shininess: 0.0,
-    emission: [0.0; 3],
-    opacity: 1.0,
-    padding0: 0.0,
-    padding1: 0.0,
-    padding2: 0.0,
-};
+fn side() -> MaterialRecord {
+    MaterialRecord {
+        base: [0.1, 0.2, 0.3],
+        diffuse: [0.9, 0.7, 0.5],
+        specular: [0.4, 0.6, 0.8],
+        ambient: [0.3, 0.2, 0.1],
+        opacity: 1.0,
+        ..MaterialRecord::default()
+    }
+}
 
 fn expected(case: &Case) -> [f64; 3] {
     let f = |v: [f32; 3]| v.map(f64::from);
@@ -115,12 +113,14 @@ fn expected(case: &Case) -> [f64; 3] {
             },
         }),
     };
+    let side = side();
     let material = Coefficients {
-        ka: f(SIDE.ambient),
-        kd: f(SIDE.diffuse),
-        ks: f(SIDE.specular),
-        ke: f(SIDE.base),
+        ka: f(side.ambient),
+        kd: f(side.diffuse),
+        ks: f(side.specular),
+        ke: f(side.base),
         shininess: f64::from(case.exponent),
+        ..Coefficients::black()
     };
     let view = if case.local_viewer { Eye::Local([0.0; 3]) } else { Eye::Infinite([0.0, 0.0, 1.0]) };
     let surface = ShadedPoint { position: f(case.p), normal: f(case.n) };
@@ -131,12 +131,12 @@ fn expected(case: &Case) -> [f64; 3] {
 fn shaded<S: Simd>(simd: S, case: &Case) -> [[f32; MOST_LANES]; 3] {
     let (p, n) = (splat3(simd, case.p), splat3(simd, case.n));
     let points = Points::new(simd, p, n, to_viewer(simd, p, n, case.local_viewer));
-    let gloss = Gloss::new(case.reflectance, case.exponent);
+    let gloss = Gloss::new(case.reflectance, &MaterialRecord { shininess: case.exponent, ..side() });
     let light = LightRecord { kind: case.kind as u32, ..case.light };
     let lights = SurfaceLights { both: LightRange { start: 0, count: 1 }, ..SurfaceLights::default() };
     let both = ShadedTerms { diffuse: true, specular: true };
     let terms = gathered(simd, (&[light], &[0]), &lights, &points, gloss, both);
-    let color = reflected(simd, &terms, &SIDE);
+    let color = reflected(simd, &terms, &side());
     let mut lanes = [[0.0; MOST_LANES]; 3];
     for c in 0..3 {
         color[c].store_slice(&mut lanes[c][..crate::simd::lanes::lanes::<S>()]);

@@ -306,10 +306,10 @@ impl<S: Simd> MappedPixels<'_, S> {
             pixel * splat(simd, look.screen.way_step[axis]) + splat(simd, look.screen.way_start[axis])
         });
         let mut n = splat3(simd, [0.0, 0.0, 1.0]);
-        let exponent = state.side(look.pass, back).shininess;
-        let (mut exponents, mut factors) = (splat(simd, exponent), splat(simd, 1.0));
+        let side = state.side(look.pass, back);
+        let (mut exponents, mut factors) = (splat(simd, side.shininess), splat(simd, 1.0));
         let changes = maps.changes_exponents();
-        let mut axial = AxialGloss::none(simd, state.reflectance);
+        let mut axial = AxialGloss::none(simd, state.gloss(back));
         for lane in 0..lanes::<S>() {
             let Some(pixel) = self.pixel(lane, look.pass, maps) else { continue };
             let seen = pixel.normals(state);
@@ -318,7 +318,7 @@ impl<S: Simd> MappedPixels<'_, S> {
                 n[axis][lane] = if back { -turned[axis] } else { turned[axis] };
             }
             if changes {
-                let gloss = pixel.gloss(seen.as_ref(), exponent);
+                let gloss = pixel.gloss(seen.as_ref(), side.shininess);
                 (exponents[lane], factors[lane]) = (gloss.exponent, gloss.factor);
                 if let Some(widths) = gloss.widths {
                     axial.set(lane, pixel.axes(turned), widths);
@@ -343,7 +343,7 @@ impl<S: Simd> MappedPixels<'_, S> {
             let exponent = exponents[first as usize];
             let same = exponents.simd_eq(splat(simd, exponent));
             left &= !(same.to_bitmask() | 1 << first);
-            let gloss = Gloss::new(state.reflectance, exponent);
+            let gloss = Gloss::new(state.reflectance, &MaterialRecord { shininess: exponent, ..*side });
             sum = sum.or(same, &state.fragment_terms(simd, look.pass, &points, gloss));
         }
         Irradiance { specular: each!(c in 3 => sum.specular[c] * factors), ..sum }

@@ -6,6 +6,7 @@ use crate::simd::power::{Exponent, Power};
 use fearless_simd::prelude::*;
 use halfway_lighting::Reflectance;
 use halfway_lighting::equations::HALFWAY_MIN;
+use halfway_lighting::record::MaterialRecord;
 
 /// Inputs of the highlights of points from the surface.
 pub(crate) trait PointLobe<S: Simd>: Copy {
@@ -22,11 +23,11 @@ pub(crate) struct Gloss {
 }
 
 impl Gloss {
-    /// One of this exponent.
-    pub(crate) fn new(reflectance: Reflectance, exponent: f32) -> Self {
+    /// Those of one side.
+    pub(crate) fn new(reflectance: Reflectance, side: &MaterialRecord) -> Self {
         let exponent = match reflectance {
-            Reflectance::Phong => Exponent::new(exponent),
-            Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => Exponent::new(exponent).halved(),
+            Reflectance::Phong => Exponent::new(side.shininess),
+            Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => Exponent::new(side.shininess).halved(),
         };
         Self { reflectance, exponent }
     }
@@ -47,7 +48,8 @@ impl<S: Simd> PointLobe<S> for Gloss {
 /// Highlights that are not round, another at each point: see `axial_exponent` in the equations.
 #[derive(Clone, Copy)]
 pub(crate) struct AxialGloss<S: Simd> {
-    pub(crate) reflectance: Reflectance,
+    /// All else that a side says of its highlights.
+    round: Gloss,
     axes: [V3<S>; 2],
     widths: V3<S>,
     /// The exponent where the halfway direction is that of the normal.
@@ -55,11 +57,11 @@ pub(crate) struct AxialGloss<S: Simd> {
 }
 
 impl<S: Simd> AxialGloss<S> {
-    /// Round ones of exponent 0.
+    /// Those of a side, so far round and of exponent 0.
     #[inline(always)]
-    pub(crate) fn none(simd: S, reflectance: Reflectance) -> Self {
+    pub(crate) fn none(simd: S, round: Gloss) -> Self {
         let zero = splat3(simd, [0.0; 3]);
-        Self { reflectance, axes: [zero; 2], widths: zero, otherwise: splat(simd, 0.0) }
+        Self { round, axes: [zero; 2], widths: zero, otherwise: splat(simd, 0.0) }
     }
 
     /// Those of one point.
@@ -77,7 +79,7 @@ impl<S: Simd> PointLobe<S> for AxialGloss<S> {
     #[inline(always)]
     fn highlight(self, simd: S, n: V3<S>, l: V3<S>, v: V3<S>) -> F<S> {
         let exponents = axial_exponent(simd, &self, add::<S>(l, v));
-        match self.reflectance {
+        match self.round.reflectance {
             Reflectance::Phong => specular_phong(simd, n, l, v, Power::Each(exponents)),
             Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => {
                 specular_blinn_phong(simd, n, l, v, Power::Each(exponents * splat(simd, 0.5)))
@@ -128,7 +130,8 @@ mod tests {
     type Case = ([[f32; 3]; 2], [f32; 3], [[f32; 3]; 2], f32);
 
     fn highlight<S: Simd>(simd: S, reflectance: Reflectance, &(axes, widths, [l, v], otherwise): &Case) -> f32 {
-        let mut axial = AxialGloss { otherwise: splat(simd, otherwise), ..AxialGloss::none(simd, reflectance) };
+        let round = Gloss::new(reflectance, &MaterialRecord::default());
+        let mut axial = AxialGloss { otherwise: splat(simd, otherwise), ..AxialGloss::none(simd, round) };
         (0..crate::simd::lanes::lanes::<S>()).for_each(|lane| axial.set(lane, axes, widths));
         axial.highlight(simd, splat3(simd, [0.0, 0.0, 1.0]), splat3(simd, l), splat3(simd, v))[0]
     }

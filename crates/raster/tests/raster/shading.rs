@@ -170,6 +170,7 @@ impl Case {
             ks: kept(terms.specular == frequency, side.specular),
             ke: kept(base, side.base),
             shininess: f64::from(side.shininess),
+            ..Coefficients::black()
         };
         let view = if self.local_viewer { Eye::Local([0.0; 3]) } else { Eye::Infinite([0.0, 0.0, 1.0]) };
         let reflectance = self.scene.draws[0].reflectance;

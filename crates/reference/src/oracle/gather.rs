@@ -8,8 +8,8 @@ use halfway_asset::Assets;
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::lights::{LightFrame, LightQueries, LightSource};
 use halfway_lighting::{
-    BackMaterial, Blend, Camera, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Mask, Material, Propagation,
-    Reflectance, Samples, Shading, Shown, Terms, VertexColors, light_direction, light_position, light_up, propagation,
+    AlphaMode, BackMaterial, Camera, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Material, Propagation,
+    Reflectance, Samples, Shading, Shown, VertexColors, light_direction, light_position, light_up, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{Maps, Pyramid, SolidTexture, SurfaceMap, Texture};
@@ -157,12 +157,11 @@ type Object<'a> = (
     Option<&'a Material>,
     Option<&'a BackMaterial>,
     Option<&'a Shading>,
-    Option<&'a Terms>,
     Option<&'a Reflectance>,
     Option<&'a Faces>,
-    Option<&'a Blend>,
+    Option<&'a AlphaMode>,
     Option<&'a VertexColors>,
-    (Option<&'a Maps>, Option<&'a Mask>, Option<&'a SolidTexture>),
+    (Option<&'a Maps>, Option<&'a SolidTexture>),
 );
 
 fn solids(world: &mut World, seen: &ViewDefaults) -> Result<Vec<Solid>, OracleError> {
@@ -192,12 +191,11 @@ fn solid(
         material,
         back,
         shading,
-        terms,
         reflectance,
         faces,
-        blend,
+        alpha,
         colors,
-        (maps, mask, cut_from),
+        (maps, cut_from),
     ): Object,
     (meshes, textures): (Option<&Assets<Mesh>>, Option<&Assets<Texture>>),
     seen: &ViewDefaults,
@@ -209,13 +207,14 @@ fn solid(
         return Err(bad_transform(entity, name, transform));
     }
     let front = material.copied().unwrap_or_default();
-    let terms = terms.copied().unwrap_or_else(|| shading.copied().unwrap_or(seen.shading).into());
+    let shading = shading.copied().unwrap_or(seen.shading);
+    let alpha = alpha.copied().unwrap_or_default();
     front
         .validate()
         .and_then(|()| back.map_or(Ok(()), BackMaterial::validate))
-        .and_then(|()| terms.validate())
+        .and_then(|()| shading.validate())
         .and_then(|()| maps.map_or(Ok(()), check_maps))
-        .and_then(|()| mask.map_or(Ok(()), Mask::validate))
+        .and_then(|()| alpha.validate())
         .and_then(|()| cut_from.map_or(Ok(()), check_solid))
         .map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
     let looks = Looks {
@@ -223,8 +222,8 @@ fn solid(
         back: back.map_or(front, |back| back.0),
         reflectance: reflectance.copied().unwrap_or(seen.reflectance),
         faces: faces.copied().unwrap_or_default(),
-        blend: blend.is_some(),
-        terms,
+        blend: alpha.blends(),
+        terms: shading.into(),
         maps: maps.map_or_else(Default::default, |maps| {
             let looks = |map: &SurfaceMap| {
                 let there = textures.and_then(|textures| textures.get(&map.texture));
@@ -233,7 +232,7 @@ fn solid(
             };
             maps.shown([0, 1].map(|set| mesh.uv_set(set).is_some())).map(|map| map.map(looks))
         }),
-        mask: mask.map(|mask| mask.0.into()),
+        mask: alpha.cutoff().map(f64::from),
         cut_from: cut_from.copied(),
         colored: colors.copied().unwrap_or_default() == VertexColors::Multiply,
     };

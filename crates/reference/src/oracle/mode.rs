@@ -3,8 +3,7 @@
 /// What a pixel shows of an object.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Mode {
-    /// Exactly the mesh, shaded as its [`Shading`](halfway_lighting::Shading) or [`Terms`](halfway_lighting::Terms)
-    /// say. Judges an implementation.
+    /// Exactly the mesh, shaded as its [`Shading`](halfway_lighting::Shading) says. Judges an implementation.
     #[default]
     Mesh,
     /// Where a mesh stands for a surface that is known by formula, that surface with its analytic normal at every

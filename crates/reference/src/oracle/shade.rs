@@ -44,7 +44,7 @@ impl OracleScene {
     /// The opacity of what is seen, whether or not it counts.
     pub(super) fn opacity_there(&self, hit: &Hit) -> f64 {
         let solid = &self.solids[hit.solid];
-        solid.side(hit.front).opacity * solid.color(hit.on_triangle()).w * self.mapped_opacity(hit)
+        solid.side(hit.front).coefficients.opacity * solid.color(hit.on_triangle()).w * self.mapped_opacity(hit)
     }
 
     /// The opacity of what is seen; 1 where the object is not blended.

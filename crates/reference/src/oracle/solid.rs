@@ -56,7 +56,6 @@ pub(super) struct Parts {
 #[derive(Clone, Debug)]
 pub(super) struct Side {
     pub(super) coefficients: Coefficients<f64>,
-    pub(super) opacity: f64,
     pub(super) shown: bool,
     /// What the vertices, or the triangles, have been found to give back; filled as they are seen.
     pub(super) shaded: Vec<OnceLock<Parts>>,
@@ -128,7 +127,6 @@ impl Solid {
         };
         let side = |material: &Material, shown: bool| Side {
             coefficients: Coefficients::from(material),
-            opacity: material.opacity.into(),
             shown,
             shaded: if shown { (0..evaluations).map(|_| OnceLock::new()).collect() } else { Vec::new() },
         };

@@ -3,7 +3,7 @@
 use bevy_math::{Vec2, Vec3};
 use bevy_transform::components::GlobalTransform;
 use halfway_asset::Assets;
-use halfway_lighting::{Blend, Cone, Faces, Intensity, Material, PointLight, Reflectance, Shading, SpotLight};
+use halfway_lighting::{AlphaMode, Cone, Faces, Intensity, Material, PointLight, Reflectance, Shading, SpotLight};
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_reference::{Image, Mode};
 use halfway_texture::environment::{Environment, EnvironmentLight, EnvironmentMap, EnvironmentShape};
@@ -53,7 +53,7 @@ fn lit(shading: Shading, reflectance: Reflectance) -> Stage {
     stage.add_at(
         geode(1),
         GlobalTransform::from_xyz(-0.5, 0.25, -1.75),
-        (glass, Blend, Faces::Both, shading, reflectance),
+        (glass, AlphaMode::Blend, Faces::Both, shading, reflectance),
     );
     stage
 }

@@ -3,13 +3,13 @@
 use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, Mat3, Vec3};
 use bevy_transform::components::{GlobalTransform, Transform};
-use halfway_lighting::{BackMaterial, Blend, Faces, Material};
+use halfway_lighting::{AlphaMode, BackMaterial, Faces, Material};
 use halfway_mesh::{Cuboid, Mesh};
 
 use crate::scene::{Stage, assert_close, glow, wall};
 
 fn veil(material: Material, opacity: f32) -> impl Bundle {
-    (Material { opacity, ..material }, Blend)
+    (Material { opacity, ..material }, AlphaMode::Blend)
 }
 
 const RED: [f32; 3] = [1.0, 0.0, 0.0];

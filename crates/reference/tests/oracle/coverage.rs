@@ -3,14 +3,14 @@
 use bevy_ecs::prelude::*;
 use bevy_math::{DVec3, Quat, Vec2, Vec3};
 use bevy_transform::components::{GlobalTransform, Transform};
-use halfway_lighting::{Blend, Camera, Faces, Material};
+use halfway_lighting::{AlphaMode, Camera, Faces, Material};
 use halfway_mesh::Mesh;
 
 use crate::scene::{Stage, assert_close, glow, panel, ray, triangle, wall};
 
 /// Half-clear white: a pixel that is covered k times holds 1 − 2⁻ᵏ.
 fn veil() -> impl Bundle {
-    (Material { opacity: 0.5, ..glow(1.0, 1.0, 1.0) }, Blend, Faces::Both)
+    (Material { opacity: 0.5, ..glow(1.0, 1.0, 1.0) }, AlphaMode::Blend, Faces::Both)
 }
 
 /// A wobbling grid over the whole picture, its middle vertex and lines exactly on the axes.

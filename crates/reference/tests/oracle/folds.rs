@@ -1,7 +1,7 @@
 //! Surfaces that the rounding of vertices folds, before the judge.
 
 use bevy_math::Vec3;
-use halfway_lighting::{Blend, Material};
+use halfway_lighting::{AlphaMode, Material};
 use halfway_mesh::{Mesh, Plane};
 
 use crate::mutants::{all_pixels, assert_caught, moved, on_grid, oracle, snapped, with};
@@ -14,7 +14,7 @@ fn sheet(change: impl Fn(&Mesh) -> Mesh) -> Stage {
     let (sine, cosine) = 0.4_f32.sin_cos();
     let tilted = |p: Vec3| Vec3::new(cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z);
     let sheet = moved(&Plane { size: 4.0, divisions: 100 }.into(), |p| tilted(Vec3::new(p.x, -0.3, p.z - 3.2)));
-    stage.add(change(&sheet), (Material { opacity: 0.5, ..glow(1.0, 0.6, 0.3) }, Blend));
+    stage.add(change(&sheet), (Material { opacity: 0.5, ..glow(1.0, 0.6, 0.3) }, AlphaMode::Blend));
     stage
 }
 

@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 use bevy_math::{Vec2, Vec3, Vec4};
 use bevy_transform::components::GlobalTransform;
 use halfway_lighting::{
-    BackMaterial, Blend, Camera, DirectionalLight, Encoding, Faces, GlobalAmbient, Material, PointLight, Samples,
+    AlphaMode, BackMaterial, Camera, DirectionalLight, Encoding, Faces, GlobalAmbient, Material, PointLight, Samples,
     Shading,
 };
 use halfway_mesh::{Mesh, UvSphere};
@@ -335,19 +335,19 @@ fn the_near_side_of_a_blended_object_before_its_far_side_is_found() {
     let [near, far] = [(0.9, 0.1), (0.1, 0.9)].map(|(red, green)| Material { opacity: 0.5, ..glow(red, green, 0.2) });
     let mesh = ball(Vec3::new(0.0, 0.0, -2.0), 1.0, 32, 16);
     let mut truth = Stage::new();
-    truth.add(mesh.clone(), (near, BackMaterial(far), Faces::Both, Blend));
+    truth.add(mesh.clone(), (near, BackMaterial(far), Faces::Both, AlphaMode::Blend));
     // What is spawned first is drawn first: of equal depth.
     let mut wrong = Stage::new();
-    wrong.add(mesh.clone(), (near, Faces::Front, Blend));
-    wrong.add(mesh.clone(), (far, Faces::Back, Blend));
+    wrong.add(mesh.clone(), (near, Faces::Front, AlphaMode::Blend));
+    wrong.add(mesh.clone(), (far, Faces::Back, AlphaMode::Blend));
     let picture = oracle(&mut wrong).draw();
     assert_caught("the near side first", &mut truth, &picture);
     // One pixel is enough.
     let one = with(&oracle(&mut truth).draw(), [((50, 40), picture.pixel(50, 40))]);
     assert_caught("the near side first in one pixel", &mut truth, &one);
     let mut right = Stage::new();
-    right.add(mesh.clone(), (far, Faces::Back, Blend));
-    right.add(mesh, (near, Faces::Front, Blend));
+    right.add(mesh.clone(), (far, Faces::Back, AlphaMode::Blend));
+    right.add(mesh, (near, Faces::Front, AlphaMode::Blend));
     let verdict = float(&oracle(&mut truth), &oracle(&mut right).draw());
     assert!(verdict.is_within(), "{verdict}");
 }
@@ -359,7 +359,7 @@ fn panes(opacities: &[f32]) -> Stage {
     for (i, opacity) in opacities.iter().enumerate() {
         let [red, blue] = [0.1, 0.7].map(|share| (share + 0.23 * i as f32).fract());
         let looks = Material { opacity: *opacity, ..glow(red, 0.4, blue) };
-        stage.add(wall(30.0, 8.0 - i as f32), (looks, Blend));
+        stage.add(wall(30.0, 8.0 - i as f32), (looks, AlphaMode::Blend));
     }
     stage
 }

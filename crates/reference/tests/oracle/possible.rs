@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 use bevy_transform::components::GlobalTransform;
-use halfway_lighting::{BackMaterial, Blend, Camera, Faces, Material, PointLight, Samples, Shading, SpotLight};
+use halfway_lighting::{AlphaMode, BackMaterial, Camera, Faces, Material, PointLight, Samples, Shading, SpotLight};
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_reference::{ColorRange, Possible};
 
@@ -170,7 +170,7 @@ fn of_coincident_triangles_of_different_meshes_either_is_seen() {
 
 #[test]
 fn blended_layers_come_in_the_order_of_drawing() {
-    let glass = |red: f32, green: f32| (Material { opacity: 0.5, ..glow(red, green, 0.0) }, Blend);
+    let glass = |red: f32, green: f32| (Material { opacity: 0.5, ..glow(red, green, 0.0) }, AlphaMode::Blend);
     let mut stage = Stage::new();
     stage.add(panel(CENTRE, 9.0, -9.0, 9.0, 1.0), glass(1.0, 0.0));
     stage.add(wall(9.0, 2.0), glass(0.0, 1.0));
@@ -186,7 +186,7 @@ fn the_far_side_of_a_blended_object_comes_before_its_near_side() {
     let far = BackMaterial(Material { opacity: 0.5, ..glow(0.0, 1.0, 0.0) });
     let mut stage = Stage::new();
     let at = GlobalTransform::from_xyz(0.0, 0.0, -3.0);
-    stage.add_at(UvSphere::new(2.0, 32, 16), at, (near, far, Faces::Both, Blend));
+    stage.add_at(UvSphere::new(2.0, 32, 16), at, (near, far, Faces::Both, AlphaMode::Blend));
     assert_shows("both sides", &possible(&mut stage, 8, 8), &[[0.5, 0.25, 0.0]]);
 }
 
@@ -257,7 +257,7 @@ fn every_pixel_may_show_what_the_oracle_draws() {
     stage.add_at(
         UvSphere::new(1.0, 32, 16),
         at,
-        (Material { opacity: 0.7, ..Material::default() }, Blend, Faces::Both),
+        (Material { opacity: 0.7, ..Material::default() }, AlphaMode::Blend, Faces::Both),
     );
     stage.add_at(UvSphere::new(0.5, 7, 5), at, (Material::default(), Shading::Gouraud));
     // The floor passes below the eye and through both.

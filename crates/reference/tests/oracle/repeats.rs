@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use bevy_color::LinearRgba;
 use bevy_math::{Quat, Vec3};
 use bevy_transform::components::{GlobalTransform, Transform};
-use halfway_lighting::{BackMaterial, Blend, DirectionalLight, Faces, Material, PointLight, SpotLight};
+use halfway_lighting::{AlphaMode, BackMaterial, DirectionalLight, Faces, Material, PointLight, SpotLight};
 use halfway_mesh::{Cuboid, Mesh, Teapot, UvSphere};
 use halfway_reference::Stopped;
 
@@ -23,7 +23,7 @@ fn crowd() -> Stage {
         stage.add_at(UvSphere::new(0.6, 20, 10), at, (plastic(0.8, 0.3, 0.2), shading, REFLECTANCES[i]));
         let veil = Material { opacity: 0.4, ..plastic(0.2, 0.5, 0.8) };
         let at = Transform::from_xyz(x, -0.6, -2.4).with_rotation(Quat::from_rotation_y(0.5 + x));
-        let looks = (veil, BackMaterial(Material { opacity: 0.7, ..veil }), Faces::Both, Blend, shading);
+        let looks = (veil, BackMaterial(Material { opacity: 0.7, ..veil }), Faces::Both, AlphaMode::Blend, shading);
         stage.add_at(Cuboid::new(0.7, 0.7, 0.7), at, looks);
     }
     stage.add_at(Mesh::from(Teapot::new(4)), Transform::from_xyz(0.0, -0.5, -6.0), Material::BRASS);

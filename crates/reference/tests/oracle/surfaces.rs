@@ -2,7 +2,7 @@
 
 use bevy_math::{Affine3A, DMat3, DVec3, Mat3, Vec3};
 use bevy_transform::components::GlobalTransform;
-use halfway_lighting::{Blend, DirectionalLight, Faces, Frequency, Material, PointLight, Shading, Terms};
+use halfway_lighting::{AlphaMode, DirectionalLight, Faces, Frequency, Material, PointLight, Shading, Terms};
 use halfway_mesh::{Mesh, Teapot, UvSphere};
 use halfway_reference::{Image, Mode};
 
@@ -98,7 +98,7 @@ fn each_side_of_a_blended_surface_is_there_once() {
     for mesh in [coarse(), Mesh::from(Teapot::new(2))] {
         let mut stage = Stage::new();
         let veil = Material { opacity: 0.5, ..glow(1.0, 1.0, 1.0) };
-        stage.add_at(mesh, placed(Mat3::from_diagonal(Vec3::splat(0.75))), (veil, Blend, Faces::Both));
+        stage.add_at(mesh, placed(Mat3::from_diagonal(Vec3::splat(0.75))), (veil, AlphaMode::Blend, Faces::Both));
         let image = draw(&mut stage);
         let layers = |pixel: &[f64; 3]| -(1.0 - pixel[0]).log2();
         let counts: Vec<f64> = image.pixels().iter().map(layers).collect();
@@ -108,7 +108,7 @@ fn each_side_of_a_blended_surface_is_there_once() {
     // Of a sphere every ray meets the far side and the near one, or nothing.
     let mut stage = Stage::new();
     let veil = Material { opacity: 0.5, ..glow(1.0, 1.0, 1.0) };
-    stage.add_at(coarse(), placed(Mat3::IDENTITY), (veil, Blend, Faces::Both));
+    stage.add_at(coarse(), placed(Mat3::IDENTITY), (veil, AlphaMode::Blend, Faces::Both));
     let image = draw(&mut stage);
     for (x, y) in each_pixel() {
         if sphere(Mat3::IDENTITY, ray(x, y, SIZE, SIZE)).is_some() {
@@ -123,7 +123,7 @@ fn a_blended_surface_has_no_seams() {
     let mut stage = Stage::new();
     let veil = Material { opacity: 0.5, ..glow(1.0, 1.0, 1.0) };
     let at = GlobalTransform::from_xyz(0.0, -1.0, -4.0);
-    stage.add_at(Mesh::from(Teapot::new(2)), at, (veil, Blend, Faces::Both));
+    stage.add_at(Mesh::from(Teapot::new(2)), at, (veil, AlphaMode::Blend, Faces::Both));
     let oracle = stage.oracle(25, 25).with_mode(Mode::Surface);
     let mut layers = 0.0;
     for y in (0..25).map(|y| f64::from(y) + 0.5) {
@@ -137,7 +137,7 @@ fn a_blended_surface_has_no_seams() {
 #[test]
 fn terms_that_are_never_shaded_stay_away() {
     let mut stage = Stage::new();
-    let terms = Terms { diffuse: Frequency::Never, specular: Frequency::Vertex };
+    let terms = Shading::Terms(Terms { diffuse: Frequency::Never, specular: Frequency::Vertex });
     let material = Material { specular: grey(1.0), emission: grey(0.25), ..chalk(1.0) };
     let looks = (material, terms);
     stage.add_at(coarse(), placed(Mat3::IDENTITY), looks);

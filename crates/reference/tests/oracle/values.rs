@@ -200,7 +200,7 @@ fn terms_are_evaluated_where_they_say() {
     ] {
         let mut stage = Stage::new();
         stage.world.insert_resource(GlobalAmbient(grey(0.125)));
-        let looks = (Material { emission: grey(0.0625), ..material }, terms, Shading::Flat);
+        let looks = (Material { emission: grey(0.0625), ..material }, Shading::Terms(terms));
         stage.add(triangle(CORNERS, Some(NORMALS)), looks);
         stage.world.spawn((light, GlobalTransform::from_xyz(0.0, 0.0, 50.0)));
         parts.push(stage.draw(24, 16));

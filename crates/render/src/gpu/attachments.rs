@@ -15,7 +15,7 @@ use halfway_frame::report::FrameReport;
 use halfway_frame::times::FrameTimes;
 use halfway_frame::values::{FrameValues, PixelValues, WaitsForLevels};
 use halfway_frame::view::camera::{PictureSize, View};
-use halfway_lighting::{Blend, Camera, Encoding, Samples, Shown};
+use halfway_lighting::{AlphaMode, Camera, Encoding, Samples, Shown};
 use halfway_mesh::Mesh3d;
 
 /// The target of the frame.
@@ -155,7 +155,7 @@ pub(crate) fn prepare(
     texture: Option<Res<TextureTarget>>,
     view: Res<View>,
     size: Res<PictureSize>,
-    blended: Query<Entity, (With<Blend>, With<Mesh3d>)>,
+    alphas: Query<(Entity, &AlphaMode), With<Mesh3d>>,
     shown: Shown,
     mut target: ResMut<Target>,
     mut values: ResMut<FrameValues>,
@@ -186,7 +186,8 @@ pub(crate) fn prepare(
         });
         return;
     }
-    let blends = blended.iter().any(shown.by_entity());
+    let is_shown = shown.by_entity();
+    let blends = alphas.iter().any(|(entity, alpha)| alpha.blends() && is_shown(entity));
     // Before passes over the finished picture, surfaces are blended and samples averaged elsewhere.
     let pixels = if texture.is_none() && surface.is_none() { headless.pixels } else { Pixels::Byte };
     let drawn = camera.intensity.acts_on_pictures().then(|| drawn_format(&gpu, pixels, camera.samples, blends));

@@ -26,6 +26,13 @@ fn light(i: u32, k: u32) -> Light {
     );
 }
 
+// A material of this shininess.
+fn glossy(shininess: f32) -> Material {
+    var result = Material();
+    result.shininess = shininess;
+    return result;
+}
+
 // The same light of the kind of this number.
 fn of_kind(kind: u32, i: u32, k: u32) -> Light {
     var result = light(i, k);

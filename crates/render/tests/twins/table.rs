@@ -4,7 +4,7 @@
 //! compared with, so a row without its twin does not compile.
 
 use halfway_lighting::Reflectance;
-use halfway_lighting::equations::{self, Eye, Incidence, Irradiance, Light, Point};
+use halfway_lighting::equations::{self, Coefficients, Eye, Incidence, Irradiance, Light, Point};
 
 use crate::adapter::Kind;
 use crate::inputs::{self, Input, N, P, SHININESS, cone, directional, hemisphere, light, point, spot, surface, wide};
@@ -185,7 +185,7 @@ fn of_irradiance_from(
     let colors = spot(x).point.colors;
     let v = view_vector(&surface, &Eye::Local([0.0; 3]));
     let n = surface.normal;
-    let s = specular_term(reflectance, n, l, v, f64::from(x[SHININESS]));
+    let s = specular_term(reflectance, n, l, v, &glossy(x[SHININESS]));
     let of_s = of_highlight(reflectance == Reflectance::Phong, n, l, v, 16.0 * ULP, f64::from(x[SHININESS]));
     // At the very height that counts as in the plane it is one side's or the other's.
     let either = if (dot(n, l) - grazing).abs() < 8.0 * ULP { weight } else { 0.0 };
@@ -212,6 +212,11 @@ fn without_range(x: &[f32]) -> Light<f64> {
 }
 
 /// How these lights arrive: none comes from all around.
+/// A material of this shininess.
+fn glossy(shininess: f32) -> Coefficients<f64> {
+    Coefficients { shininess: f64::from(shininess), ..Coefficients::black() }
+}
+
 fn incidence(surface: &equations::ShadedPoint<f64>, light: &Light<f64>) -> Incidence<f64> {
     equations::incidence(surface, light).expect("a direction")
 }
@@ -278,54 +283,54 @@ pub(crate) fn rows() -> Vec<Row> {
         row!(specular_phong("v(i, 0), v(i, 3), v(i, 6), s(i, 9)") -> Scalar, &[("SQUARINGS", 5.0)], inputs::highlights(),
             |x| (wide(x), wide(&x[3..]), wide(&x[6..]), 32.0),
             |x, e| { let (n, l, v, _) = vectors_of(x); each(e, of_highlight(true, n, l, v, 4.0 * ULP, 32.0)) }),
-        row!(specular_term("v(i, 0), v(i, 3), v(i, 6), s(i, 9)") -> Scalar, PHONG, inputs::highlights(),
-            |x| (Reflectance::Phong, wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9])),
+        row!(specular_term("v(i, 0), v(i, 3), v(i, 6), glossy(s(i, 9))") -> Scalar, PHONG, inputs::highlights(),
+            |x| (Reflectance::Phong, wide(x), wide(&x[3..]), wide(&x[6..]), &glossy(x[9])),
             |x, e| { let (n, l, v, a) = vectors_of(x); each(e, of_highlight(true, n, l, v, 4.0 * ULP, a)) }),
-        row!(specular_term("v(i, 0), v(i, 3), v(i, 6), s(i, 9)") -> Scalar, NOTHING, inputs::highlights(),
-            |x| (Reflectance::BlinnPhong, wide(x), wide(&x[3..]), wide(&x[6..]), f64::from(x[9])),
+        row!(specular_term("v(i, 0), v(i, 3), v(i, 6), glossy(s(i, 9))") -> Scalar, NOTHING, inputs::highlights(),
+            |x| (Reflectance::BlinnPhong, wide(x), wide(&x[3..]), wide(&x[6..]), &glossy(x[9])),
             |x, e| { let (n, l, v, a) = vectors_of(x); each(e, of_highlight(false, n, l, v, 4.0 * ULP, a)) }),
         row!(irradiance("light(i, 0), incidence(light(i, 0), true, v(i, 23), v(i, 26)), v(i, 26), \
-                view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)") -> Irradiance,
+                view_vector(v(i, 23), v(i, 26)), glossy(s(i, 29)), Terms(true, true)") -> Irradiance,
             NOTHING, inputs::lit(inputs::coincident()),
-            |x| (&surface(x), &light(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &light(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, &glossy(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::BlinnPhong, false)),
         row!(irradiance("light(i, 0), incidence(light(i, 0), true, v(i, 23), v(i, 26)), v(i, 26), \
-                view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)") -> Irradiance,
+                view_vector(v(i, 23), v(i, 26)), glossy(s(i, 29)), Terms(true, true)") -> Irradiance,
             &[("BLINN_PHONG", 0.0), ("SHARED_COLOR", 1.0)], inputs::lit(inputs::coincident()),
-            |x| (&surface(x), &shared(x), &Eye::Local([0.0; 3]), Reflectance::Phong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &shared(x), &Eye::Local([0.0; 3]), Reflectance::Phong, &glossy(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::Phong, true)),
-        row!(directional_light("light(i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+        row!(directional_light("light(i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), glossy(s(i, 29)), Terms(true, true)")
                 -> Irradiance, NOTHING, inputs::sunny(),
-            |x| (&surface(x), &directional(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &directional(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, &glossy(x[SHININESS])),
             |x, e| of_irradiance_from(&directional(x), 0.0, x, e, Reflectance::BlinnPhong, false)),
-        row!(point_light("light(i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+        row!(point_light("light(i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), glossy(s(i, 29)), Terms(true, true)")
                 -> Irradiance, NOTHING, inputs::lit(inputs::coincident()),
-            |x| (&surface(x), &point(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &point(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, &glossy(x[SHININESS])),
             |x, e| of_irradiance_from(&point(x), of_weight(x, true, false), x, e, Reflectance::BlinnPhong, false)),
-        row!(spot_light("light(i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+        row!(spot_light("light(i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), glossy(s(i, 29)), Terms(true, true)")
                 -> Irradiance, NOTHING, inputs::lit(inputs::coincident()),
-            |x| (&surface(x), &light(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &light(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, &glossy(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::BlinnPhong, false)),
         // The cosine is known to 4 ULP, and each product to half of one.
-        row!(hemisphere_light("light(i, 0), v(i, 23), v(i, 26), v(i, 26), s(i, 29), Terms(true, true)")
+        row!(hemisphere_light("light(i, 0), v(i, 23), v(i, 26), v(i, 26), glossy(s(i, 29)), Terms(true, true)")
                 -> Irradiance, NOTHING, inputs::sunny(),
-            |x| (&surface(x), &hemisphere(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &hemisphere(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, &glossy(x[SHININESS])),
             |_, e| each(e, 16.0 * ULP)),
-        row!(any_light("of_kind(3u, i, 0), v(i, 23), v(i, 26), v(i, 26), s(i, 29), Terms(true, true)")
+        row!(any_light("of_kind(3u, i, 0), v(i, 23), v(i, 26), v(i, 26), glossy(s(i, 29)), Terms(true, true)")
                 -> Irradiance, NOTHING, inputs::sunny(),
-            |x| (&surface(x), &hemisphere(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &hemisphere(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, &glossy(x[SHININESS])),
             |_, e| each(e, 16.0 * ULP)),
-        row!(any_light("of_kind(0u, i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+        row!(any_light("of_kind(0u, i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), glossy(s(i, 29)), Terms(true, true)")
                 -> Irradiance, NOTHING, inputs::sunny(),
-            |x| (&surface(x), &directional(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &directional(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, &glossy(x[SHININESS])),
             |x, e| of_irradiance_from(&directional(x), 0.0, x, e, Reflectance::BlinnPhong, false)),
-        row!(any_light("of_kind(1u, i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+        row!(any_light("of_kind(1u, i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), glossy(s(i, 29)), Terms(true, true)")
                 -> Irradiance, NOTHING, inputs::lit(inputs::coincident()),
-            |x| (&surface(x), &point(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &point(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, &glossy(x[SHININESS])),
             |x, e| of_irradiance_from(&point(x), of_weight(x, true, false), x, e, Reflectance::BlinnPhong, false)),
-        row!(any_light("of_kind(2u, i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), s(i, 29), Terms(true, true)")
+        row!(any_light("of_kind(2u, i, 0), v(i, 23), v(i, 26), view_vector(v(i, 23), v(i, 26)), glossy(s(i, 29)), Terms(true, true)")
                 -> Irradiance, NOTHING, inputs::lit(inputs::coincident()),
-            |x| (&surface(x), &light(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, f64::from(x[SHININESS])),
+            |x| (&surface(x), &light(x), &Eye::Local([0.0; 3]), Reflectance::BlinnPhong, &glossy(x[SHININESS])),
             |x, e| of_irradiance(x, e, Reflectance::BlinnPhong, false)),
         row!(normalize_or_zero("v(i, 0)") -> Vector, NOTHING, inputs::short_vectors(),
             |x| (long_enough(wide(x))), |_, e| each(e, 5.0 * ULP)),

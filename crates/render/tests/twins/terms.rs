@@ -72,7 +72,11 @@ impl Lit {
     fn of(x: &[f32]) -> Self {
         let arriving = Irradiance { ambient: wide(x), diffuse: wide(&x[3..]), specular: wide(&x[6..]) };
         let (kd, ks, ka) = (wide(&x[12..]), wide(&x[15..]), wide(&x[18..]));
-        Self { arriving, material: Coefficients { ka, kd, ks, ke: [0.0; 3], shininess: 1.0 }, color: wide(&x[25..]) }
+        Self {
+            arriving,
+            material: Coefficients { ka, kd, ks, shininess: 1.0, ..Coefficients::black() },
+            color: wide(&x[25..]),
+        }
     }
 
     /// With nothing but the terms whose switch is 1: ambient, diffuse, specular.

@@ -21,7 +21,7 @@ pub const SHININESS_MAX: f32 = 10_000.0;
 /// | shininess n | 2/ρ⁴ − 2, clamped to 1…10⁴ | [`shininess_from_roughness`] |
 /// | ambient | c | see below |
 /// | emission | the emissive color | |
-/// | opacity | alpha where blended or masked ([`Mask`](halfway_lighting::Mask)); else 1 | section 3.9.4 |
+/// | opacity | alpha where blended or masked ([`AlphaMode`](halfway_lighting::AlphaMode)); else 1 | section 3.9.4 |
 ///
 /// The shininess is β, for [`Reflectance::BlinnPhong`](halfway_lighting::Reflectance::BlinnPhong). (n + 8)/8 is the
 /// factor that keeps the reflected energy the same however small the highlight is (Akenine-Möller, Haines,

@@ -1,7 +1,7 @@
 //! The material of a model, whichever format it came in.
 
-use halfway_lighting::{Faces, InvalidValue, Mask, Material};
-use halfway_mesh::{AlphaMode, MetallicRoughness, MtlMaterial, SourceMaterial};
+use halfway_lighting::{AlphaMode, Faces, InvalidValue, Material};
+use halfway_mesh::{AlphaMode as SourceAlpha, MetallicRoughness, MtlMaterial, SourceMaterial};
 
 use super::metallic_roughness::from_metallic_roughness;
 use super::mtl::from_mtl;
@@ -13,11 +13,9 @@ pub struct ModelMaterial {
     pub material: Material,
     /// Both where the file says double-sided, else the front.
     pub faces: Faces,
-    /// Whether the file asks for blending. An MTL file cannot; whoever shows it has to.
-    pub blend: bool,
-    /// The opacity below which the surface is not there, where the file says so: glTF's `alphaCutoff`; of an MTL
-    /// material with a `map_d` 0.5, since such images mostly cut something out.
-    pub mask: Option<f32>,
+    /// What its opacity does: glTF's `alphaMode` and `alphaCutoff`. An MTL file cannot ask for blending; whoever shows it
+    /// has to. With a `map_d` it is cut out at 0.5, since such images mostly cut something out; else opaque.
+    pub alpha: AlphaMode,
 }
 
 impl ModelMaterial {
@@ -35,8 +33,8 @@ impl ModelMaterial {
     fn from_mtl_file(mtl: &MtlMaterial) -> Result<(Self, Vec<String>), InvalidValue> {
         let (material, warnings) = from_mtl(mtl)?;
         let warnings = warnings.iter().map(ToString::to_string).collect();
-        let mask = mtl.maps.d.as_ref().map(|_| Mask::default().0);
-        Ok((Self { material, faces: Faces::Front, blend: false, mask }, warnings))
+        let cutoff = mtl.maps.d.as_ref().map(|_| AlphaMode::CUTOFF);
+        Ok((Self { material, faces: Faces::Front, alpha: AlphaMode::new(cutoff, false) }, warnings))
     }
 
     fn from_gltf(gltf: &MetallicRoughness) -> Result<Self, InvalidValue> {
@@ -44,10 +42,10 @@ impl ModelMaterial {
         Ok(Self {
             material,
             faces: if gltf.double_sided { Faces::Both } else { Faces::Front },
-            blend: gltf.alpha == AlphaMode::Blend,
-            mask: match gltf.alpha {
-                AlphaMode::Mask { cutoff } => Some(cutoff),
-                AlphaMode::Opaque | AlphaMode::Blend => None,
+            alpha: match gltf.alpha {
+                SourceAlpha::Opaque => AlphaMode::Opaque,
+                SourceAlpha::Mask { cutoff } => AlphaMode::Mask(cutoff),
+                SourceAlpha::Blend => AlphaMode::Blend,
             },
         })
     }

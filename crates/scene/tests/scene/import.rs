@@ -61,13 +61,14 @@ fn full() -> MtlMaterial {
 }
 
 fn full_material() -> Material {
+    let clear = Material { opacity: 0.5, ..Material::DEFAULT };
     Material {
         ambient: color(KA),
         diffuse: color(KD),
         specular: color(KS),
         emission: color(KE),
         shininess: 96.0,
-        opacity: 0.5,
+        ..clear
     }
 }
 

@@ -1,10 +1,10 @@
 //! The images that a scene file names are on its objects, and what is wrong with them is said by name.
 
 use bevy_app::App;
-use bevy_ecs::query::{Has, With};
+use bevy_ecs::query::With;
 use bevy_transform::TransformPlugin;
 use halfway_asset::Assets;
-use halfway_lighting::{Blend, Mask};
+use halfway_lighting::AlphaMode;
 use halfway_mesh::{Mesh3d, MeshPlugin};
 use halfway_scene::{SceneError, SceneFile, spawn};
 use halfway_texture::{
@@ -159,10 +159,11 @@ fn all_of_model(dir: &std::path::Path, file: &str, keys: &str) -> (Maps, Option<
     app.add_plugins((MeshPlugin, TexturePlugin, TransformPlugin));
     let text = format!(r#"{{"objects": [{{"mesh": {{"path": "{file}"}}{keys}}}]}}"#);
     let spawned = spawn(&SceneFile::from_json(&text, "test").expect("a scene"), dir, app.world_mut()).expect("a model");
-    let mut query = app.world_mut().query_filtered::<(&Maps, Option<&Mask>, Has<Blend>), With<Mesh3d>>();
-    let (maps, mask, blend) = query.single(app.world()).expect("one part");
-    assert_eq!(blend, keys.contains("blend"), "{file}{keys}");
-    (maps.clone(), mask.map(|mask| mask.0), spawned.warnings)
+    let mut query = app.world_mut().query_filtered::<(&Maps, Option<&AlphaMode>), With<Mesh3d>>();
+    let (maps, alpha) = query.single(app.world()).expect("one part");
+    let alpha = alpha.copied().unwrap_or_default();
+    assert_eq!(alpha.blends(), keys.contains("blend"), "{file}{keys}");
+    (maps.clone(), alpha.cutoff(), spawned.warnings)
 }
 
 #[test]

@@ -10,7 +10,7 @@ use bevy_transform::TransformPlugin;
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_asset::Assets;
 use halfway_lighting::{
-    BackMaterial, Blend, Cone, DirectionalLight, Faces, GlobalAmbient, Material, PointLight, Reflectance, Shading,
+    AlphaMode, BackMaterial, Cone, DirectionalLight, Faces, GlobalAmbient, Material, PointLight, Reflectance, Shading,
     SpotLight, Viewer, light_direction,
 };
 use halfway_lighting::{Camera, Encoding, Intensity, Projection, Samples};
@@ -113,7 +113,7 @@ fn objects_carry_their_looks() {
     assert_eq!(get::<Material>(&app, plain), Some(Material::default()));
     assert_eq!(get::<Faces>(&app, plain), Some(Faces::Front));
     assert!(get::<Shading>(&app, plain).is_none() && get::<Reflectance>(&app, plain).is_none());
-    assert!(get::<BackMaterial>(&app, plain).is_none() && get::<Blend>(&app, plain).is_none());
+    assert!(get::<BackMaterial>(&app, plain).is_none() && get::<AlphaMode>(&app, plain).is_none());
 
     assert_eq!(name(&app, rich), "objects[1]");
     assert_eq!(get::<Material>(&app, rich), Some(Material::BRASS));
@@ -121,7 +121,7 @@ fn objects_carry_their_looks() {
     assert_eq!(get::<Faces>(&app, rich), Some(Faces::Both));
     assert_eq!(get::<Shading>(&app, rich), Some(Shading::Gouraud));
     assert_eq!(get::<Reflectance>(&app, rich), Some(Reflectance::BlinnPhongMatched));
-    assert!(get::<Blend>(&app, rich).is_some());
+    assert!(get::<AlphaMode>(&app, rich) == Some(AlphaMode::Blend));
     let transform: Transform = get(&app, rich).unwrap();
     assert_eq!(transform, Transform::from_xyz(1.0, 2.0, 3.0).with_scale(Vec3::new(-1.0, 1.0, 1.0)));
 
@@ -294,7 +294,9 @@ fn a_model_brings_parts_materials_and_lights() {
     let own: Vec<Material> = children.iter().filter_map(|&child| get(&app, child)).collect();
     assert!(own.iter().any(|material| *material != Material::default()), "the model's own materials");
     let glass = children.iter().find(|&&child| name(&app, child) == "glass").unwrap();
-    assert!(get::<Blend>(&app, *glass).is_some() && get::<Faces>(&app, *glass) == Some(Faces::Both));
+    assert!(
+        get::<AlphaMode>(&app, *glass) == Some(AlphaMode::Blend) && get::<Faces>(&app, *glass) == Some(Faces::Both)
+    );
 }
 
 #[test]
@@ -305,7 +307,7 @@ fn a_material_of_the_scene_wins_over_the_models() {
     for child in children.iter().filter(|&child| get::<Mesh3d>(&app, child).is_some()) {
         assert_eq!(get::<Material>(&app, child), Some(Material::JADE));
         assert_eq!(get::<Faces>(&app, child), Some(Faces::Front));
-        assert!(get::<Blend>(&app, child).is_none());
+        assert!(get::<AlphaMode>(&app, child).is_none());
     }
 }
 

@@ -1,6 +1,8 @@
 //! Colours, materials, shading.
 
 use fastrand::Rng;
+use halfway::lighting::Choices;
+use halfway::prelude::{Reflectance, Shading};
 use serde_json::{Value, json};
 
 use super::{Object, place, short, shorts};
@@ -22,12 +24,17 @@ pub(super) fn color(random: &mut Rng, brightness: f64) -> Value {
     }
 }
 
+/// One of the values of a type that have names, by its key.
+fn named<T: Choices>(random: &mut Rng) -> Value {
+    random.choose(T::CHOICES).key.into()
+}
+
 pub(super) fn shading(random: &mut Rng) -> Value {
-    random.choose(&["flat", "gouraud", "phong"]).into()
+    named::<Shading>(random)
 }
 
 pub(super) fn reflectance(random: &mut Rng) -> Value {
-    random.choose(&["phong", "blinn_phong", "blinn_phong_matched"]).into()
+    named::<Reflectance>(random)
 }
 
 /// A policy for intensities above 1.

@@ -244,7 +244,7 @@ pub(crate) fn scene() -> impl Strategy<Value = Scene> {
     let reflectance =
         prop::sample::select(&[Reflectance::Phong, Reflectance::BlinnPhong, Reflectance::BlinnPhongMatched]);
     let material = (color(), color(), color(), exponent(1e4)).prop_map(|(ambient, diffuse, specular, shininess)| {
-        Material { ambient, diffuse, specular, emission: LinearRgba::BLACK, shininess, opacity: 1.0 }
+        Material { ambient, diffuse, specular, emission: LinearRgba::BLACK, shininess, ..Material::DEFAULT }
     });
     let view = prop_oneof![
         1 => any_direction().prop_map(Eye::Infinite),

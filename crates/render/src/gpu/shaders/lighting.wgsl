@@ -193,10 +193,10 @@ struct AxialGloss {
 
 var<private> axial: AxialGloss;
 
-fn specular_term(n: vec3f, l: vec3f, v: vec3f, shininess: f32) -> f32 {
-    var exponent = shininess;
+fn specular_term(n: vec3f, l: vec3f, v: vec3f, material: Material) -> f32 {
+    var exponent = material.shininess;
     if LEAN {
-        exponent = axial_exponent(axial.axes, axial.widths, l + v, shininess);
+        exponent = axial_exponent(axial.axes, axial.widths, l + v, material.shininess);
     }
     if BLINN_PHONG {
         return specular_blinn_phong(n, l, v, exponent);
@@ -205,7 +205,7 @@ fn specular_term(n: vec3f, l: vec3f, v: vec3f, shininess: f32) -> f32 {
 }
 
 // The light of one source at a point.
-fn irradiance(light: Light, incident: Incidence, n: vec3f, v: vec3f, shininess: f32, terms: Terms) -> Irradiance {
+fn irradiance(light: Light, incident: Incidence, n: vec3f, v: vec3f, material: Material, terms: Terms) -> Irradiance {
     var result = Irradiance();
     let weight = select(0.0, incident.weight, dot(n, incident.l) > incident.grazing);
     if terms.diffuse {
@@ -216,7 +216,7 @@ fn irradiance(light: Light, incident: Incidence, n: vec3f, v: vec3f, shininess: 
         if SHARED_COLOR {
             color = light.diffuse;
         }
-        result.specular = color * (weight * specular_term(n, incident.l, v, shininess));
+        result.specular = color * (weight * specular_term(n, incident.l, v, material));
     }
     if ATTENUATED_AMBIENT && terms.diffuse {
         result.ambient = light.ambient * incident.weight;

@@ -49,31 +49,31 @@ fn sight(p: vec3f) -> vec3f {
 }
 
 // The lights of a record's lists.
-fn add_lists(p: vec3f, n: vec3f, shininess: f32, record: u32, terms: Terms) -> Irradiance {
-    var sum = add_listed(Irradiance(), p, n, shininess, surfaces[record].both, terms);
+fn add_lists(p: vec3f, n: vec3f, material: Material, record: u32, terms: Terms) -> Irradiance {
+    var sum = add_listed(Irradiance(), p, n, material, surfaces[record].both, terms);
     if terms.diffuse {
-        sum = add_listed(sum, p, n, shininess, surfaces[record].diffuse, Terms(true, false));
+        sum = add_listed(sum, p, n, material, surfaces[record].diffuse, Terms(true, false));
     }
     if terms.specular {
-        sum = add_listed(sum, p, n, shininess, surfaces[record].specular, Terms(false, true));
+        sum = add_listed(sum, p, n, material, surfaces[record].specular, Terms(false, true));
     }
     return sum;
 }
 
-fn vertex_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
+fn vertex_terms(p: vec3f, n: vec3f, material: Material, record: u32) -> Irradiance {
     let terms = Terms(VERTEX_DIFFUSE, VERTEX_SPECULAR);
     if !LISTED {
-        return add_counted(p, n, shininess, terms);
+        return add_counted(p, n, material, terms);
     }
-    return add_lists(p, n, shininess, record, terms);
+    return add_lists(p, n, material, record, terms);
 }
 
-fn fragment_terms(p: vec3f, n: vec3f, shininess: f32, record: u32) -> Irradiance {
+fn fragment_terms(p: vec3f, n: vec3f, material: Material, record: u32) -> Irradiance {
     let terms = Terms(FRAGMENT_DIFFUSE, FRAGMENT_SPECULAR);
     if !LISTED {
-        return add_counted(p, n, shininess, terms);
+        return add_counted(p, n, material, terms);
     }
-    return add_lists(p, n, shininess, record, terms);
+    return add_lists(p, n, material, record, terms);
 }
 
 // As the target takes it.

@@ -14,15 +14,15 @@ fn light_numbered(i: u32) -> Light {
 }
 
 // Adds the lights of a range: where their numbers begin, and how many.
-fn add_listed(before: Irradiance, p: vec3f, n: vec3f, shininess: f32, range: vec2u, terms: Terms) -> Irradiance {
+fn add_listed(before: Irradiance, p: vec3f, n: vec3f, material: Material, range: vec2u, terms: Terms) -> Irradiance {
     let v = view_vector(p, n);
     var sum = before;
     for (var i = range.x; i < range.x + range.y; i++) {
-        sum = plus(sum, any_light(light_numbered(i), p, n, v, shininess, terms));
+        sum = plus(sum, any_light(light_numbered(i), p, n, v, material, terms));
     }
     return sum;
 }
 
-fn add_counted(p: vec3f, n: vec3f, shininess: f32, terms: Terms) -> Irradiance {
-    return add_listed(Irradiance(), p, n, shininess, vec2u(0, LIGHTS), terms);
+fn add_counted(p: vec3f, n: vec3f, material: Material, terms: Terms) -> Irradiance {
+    return add_listed(Irradiance(), p, n, material, vec2u(0, LIGHTS), terms);
 }

@@ -133,7 +133,7 @@ fn side(record: u32, front: bool) -> Material {
 
 // The terms of a vertex that are shaded at the vertices.
 fn vertex_parts(p: vec3f, n: vec3f, material: Material, color: vec3f, record: u32) -> Parts {
-    return parts(vertex_terms(p, n, material.shininess, record), material, color);
+    return parts(vertex_terms(p, n, material, record), material, color);
 }
 
 @vertex
@@ -410,7 +410,9 @@ fn fs_surface(
     n = select(-n, n, front);
 #end
 #if FRAGMENT
-    var terms = fragment_terms(in.p, n, lobe.x, record);
+    var shiny = material;
+    shiny.shininess = lobe.x;
+    var terms = fragment_terms(in.p, n, shiny, record);
 #if RELIEF
     terms.specular *= lobe.y;
 #end

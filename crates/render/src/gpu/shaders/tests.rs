@@ -10,7 +10,7 @@ use crate::gpu::shaders::template::{EntryPoint, Template};
 use crate::gpu::shaders::text::{LightText, SKY, Text};
 use bytemuck::Zeroable;
 use halfway_frame::lights::slots::COUNTED_LIGHTS;
-use halfway_lighting::record::{InstanceRecord, LightRecord, MaterialRecord, SurfaceRecord};
+use halfway_lighting::record::{InstanceRecord, LightRecord, MaterialRecord, RecordField, SurfaceRecord};
 use halfway_lighting::{Frequency, Terms};
 use std::mem::offset_of;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -196,6 +196,10 @@ macro_rules! fields {
     }};
 }
 
+fn material_field(field: RecordField) -> Field {
+    (field.name.to_owned(), field.first, field.count * size_of::<f32>())
+}
+
 /// Each record by the name of its struct.
 fn records() -> [(&'static str, (Vec<Field>, usize)); 4] {
     [
@@ -219,7 +223,7 @@ fn records() -> [(&'static str, (Vec<Field>, usize)); 4] {
                 kind
             }),
         ),
-        ("Material", fields!(MaterialRecord { base, shininess, diffuse, opacity, specular, ambient, emission })),
+        ("Material", (MaterialRecord::FIELDS.map(material_field).to_vec(), size_of::<MaterialRecord>())),
         ("Surface", fields!(SurfaceRecord { front, back, lights.both, lights.diffuse, lights.specular })),
     ]
 }
