@@ -48,7 +48,7 @@ impl Report {
         index.sections.push(MeasuredOver::section(&self.over));
         let failures = self.failures.iter().map(FailurePage::page).collect::<Result<Vec<_>, _>>()?;
         index.sections.push(Section {
-            title: "Where methods fail".to_owned(),
+            title: "Failure modes".to_owned(),
             text: vec![
                 "Each known failure has its own page: pictures, how large the error is, the cause, the remedy, and the test \
                  that holds it. What methods lose is drawn by the reference renderer, what rounding loses by the adapters of \
