@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn arguments_that_make_no_sense_are_refused_by_name() {
+    fn contradictory_arguments_are_refused_by_name() {
         let cases = [
             ("--headles a.png", "unknown argument --headles"),
             ("--headless", "--headless needs a value"),

@@ -13,7 +13,7 @@ fn adapter() -> Adapter {
 
 // `cargo xtask adapters` says what it means to test; the programs it runs choose by the variables that it sets.
 #[test]
-fn what_draws_is_what_is_tested() {
+fn the_drawing_adapter_is_the_tested_one() {
     let tested = std::env::var("HALFWAY_TESTED_ADAPTER").unwrap_or_default();
     let said = adapter().describe();
     for part in tested.split_whitespace() {

@@ -31,7 +31,7 @@ fn assert_centre(row: &str, stage: &mut Stage, scene: &Scene, expected: [f32; 3]
 }
 
 #[test]
-fn layers_are_drawn_back_to_front_in_whatever_order_they_are_spawned() {
+fn layers_are_drawn_back_to_front_in_any_spawn_order() {
     let panes = [pane(5.0, RED, 0.5), pane(4.0, GREEN, 0.25), pane(3.0, BLUE, 0.75)];
     let expected = [0, 1, 2].map(|k| {
         let of = |i: usize| f32::from(u8::from(i == k));
@@ -76,7 +76,7 @@ fn equal_depths_are_drawn_in_the_order_they_were_spawned() {
 }
 
 #[test]
-fn equal_depths_are_drawn_in_the_order_they_were_spawned_after_others_have_gone() {
+fn equal_depths_keep_the_spawn_order_after_despawns() {
     // A despawned entity's place is taken by a later one.
     let mut stage = Stage::new(9, 9);
     stage.set(&Scene::in_eye_space());
@@ -213,7 +213,7 @@ fn opaque_pixels_are_the_same_beside_a_blended_object() {
 }
 
 #[test]
-fn overbright_surfaces_are_clamped_before_they_are_blended_in_bytes() {
+fn bytes_clamp_overbright_surfaces_before_blending() {
     let mut stage = Stage::new(9, 9);
     for encoding in [Encoding::Raw, Encoding::Srgb] {
         let mut scene = Scene::in_eye_space().with(pane(3.0, [8.0, 0.5, 0.0], 0.5));

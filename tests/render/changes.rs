@@ -57,7 +57,7 @@ fn a_mesh_that_is_removed_is_missed_until_it_is_back() {
 }
 
 #[test]
-fn what_is_despawned_is_gone_from_the_next_frame() {
+fn a_despawned_object_is_gone_in_the_next_frame() {
     let mut stage = Stage::new(24, 24);
     let scene = one(UvSphere::new(1.0, 12, 6))
         .with(Thing::new(Cuboid::default()).at(Transform::from_xyz(1.2, 0.0, 0.0)).shaded(Shading::Flat));
@@ -293,7 +293,7 @@ fn changes_around() -> Vec<Change> {
 }
 
 #[test]
-fn whatever_changes_shows_at_once() {
+fn every_change_shows_at_once() {
     let mut stage = Stage::new(1, 1);
     for Change { name, make, shows } in changes_of_objects().into_iter().chain(changes_around()) {
         let things = set(&mut stage);
@@ -368,7 +368,7 @@ fn a_light_that_is_disabled_as_another_is_enabled_shows_at_once() {
 }
 
 #[test]
-fn what_is_refused_is_told_in_each_frame_of_a_still_scene() {
+fn an_invalid_entity_is_an_error_in_each_still_frame() {
     let mut stage = Stage::new(1, 1);
     let things = set(&mut stage);
     insert_on(&mut stage, things[0], Material { shininess: -1.0, ..material() });

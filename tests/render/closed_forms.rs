@@ -77,7 +77,7 @@ fn lambert_and_both_highlights_at_chosen_angles() {
 }
 
 #[test]
-fn light_from_behind_makes_no_highlight_whatever_the_halfway_vector_says() {
+fn light_from_behind_makes_no_highlight() {
     let mut stage = Stage::new(9, 9);
     // n at 60° from v and l at 20° beyond v on the other side: n·l = cos 80° > 0 lights, and cos 100° does not, though
     // n·h = cos 40° in both.
@@ -269,7 +269,7 @@ fn four_times_the_shininess_makes_phongs_highlight_of_blinns() {
 }
 
 #[test]
-fn what_glows_is_as_bright_from_everywhere() {
+fn emission_does_not_depend_on_the_view() {
     let mut stage = Stage::new(9, 9);
     for distance in [0.2, 1.0, 1e6] {
         let square = Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 9.0 * distance).of(glowing(0.125, 0.0, 0.0));

@@ -64,7 +64,7 @@ fn one_color_everywhere_is_another_material() {
 }
 
 #[test]
-fn a_picture_without_the_colors_is_found_out() {
+fn a_picture_without_vertex_colors_is_found() {
     let mut stage = Stage::new(64, 48);
     for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
         let mesh = colored(UvSphere::new(1.0, 24, 12));

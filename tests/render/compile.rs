@@ -33,7 +33,7 @@ fn counts(stage: &Stage) -> (u32, u32, u32) {
 const RELATIVES: u32 = 6;
 
 #[test]
-fn the_first_frame_builds_what_it_needs_and_the_second_asks_for_generic_ones() {
+fn the_second_frame_requests_generic_pipelines() {
     let mut stage = stage();
     let first = stage.draw(&ball());
     assert_eq!(counts(&stage), (1, 0, 1));
@@ -182,7 +182,7 @@ fn both_sides_of_what_is_blended_change_pipelines_together() {
 }
 
 #[test]
-fn headless_pictures_wait_unless_they_are_told_not_to() {
+fn headless_pictures_wait_for_pipelines_by_default() {
     let mut stage = Stage::new(24, 24);
     let mut scene = ball();
     for (lamps, built) in [(2, 1), (1, 2), (0, 3)] {
@@ -200,7 +200,7 @@ fn headless_pictures_wait_unless_they_are_told_not_to() {
 }
 
 #[test]
-fn of_many_lights_only_what_is_going_to_draw_is_built() {
+fn many_lights_build_only_the_pipelines_that_draw() {
     let mut scene = Scene::in_eye_space().with(Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 1.0));
     for i in 0..12_u8 {
         scene = scene.lit(Lamp::point(point_light(), Vec3::new(0.1 * f32::from(i), 0.2, 0.0)));

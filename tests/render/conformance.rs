@@ -299,7 +299,7 @@ fn highlights_of_moments_conform() {
 }
 
 #[test]
-fn highlights_of_other_far_normals_are_found_out() {
+fn highlights_of_other_far_normals_are_found() {
     use FarNormals::{Lean, Mean, Toksvig};
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     let pairs = [(Toksvig, Mean), (Lean, Mean), (Lean, Toksvig)];

@@ -36,7 +36,7 @@ fn scene(lights: u8) -> Scene {
 }
 
 #[test]
-fn it_draws_what_the_oracle_says() {
+fn the_cpu_matches_the_oracle() {
     let mut stage = stage_on("cpu");
     let mut failures = Failures::default();
     for lights in [0, 20] {
@@ -70,7 +70,7 @@ fn all_vectors_give_the_same_bits() {
 }
 
 #[test]
-fn what_draws_may_change_between_frames() {
+fn the_adapter_may_change_between_frames() {
     let mut stage = stage_on("cpu");
     let own = stage.draw(&scene(0));
     let gpu = Gpu::open_headless().expect("an adapter");
@@ -86,7 +86,7 @@ fn what_draws_may_change_between_frames() {
 }
 
 #[test]
-fn what_it_cannot_draw_is_an_error_and_the_next_picture_is_right() {
+fn an_undrawable_frame_is_an_error_and_the_next_is_right() {
     let mut stage = stage_on("cpu");
     let own = stage.draw(&scene(0));
     stage.target_size(20_000, 1);

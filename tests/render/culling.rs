@@ -132,7 +132,7 @@ fn walls_close_by_are_cut_at_the_borders_alone() {
 }
 
 #[test]
-fn what_is_seen_as_a_whole_is_drawn_as_a_whole() {
+fn a_flat_wall_is_culled_whole_or_not_at_all() {
     let mut stage = Stage::new(64, 64);
     let mut failures = Failures::default();
     let wall = Plane { size: 2.0, divisions: 64 };

@@ -59,7 +59,7 @@ fn without_lights_there_is_emission_and_ambient() {
 }
 
 #[test]
-fn equal_scenes_told_differently_are_equal_to_the_bit() {
+fn equivalent_scenes_are_equal_to_the_bit() {
     let black = LinearRgba::BLACK;
     let no_ks = Material { specular: black, ..material() };
     let no_ls = PointLight { specular: black, ..point_light() };
@@ -207,7 +207,7 @@ fn emission_is_untouched_by_lights_and_transforms() {
 }
 
 #[test]
-fn the_views_shading_and_reflectance_are_the_defaults_of_its_objects() {
+fn objects_inherit_the_cameras_shading_and_reflectance() {
     let mut stage = Stage::new(48, 48);
     let scene = |view: Option<(Shading, Reflectance)>, own: Option<(Shading, Reflectance)>| {
         let mut scene = lit([point(point_light())]);

@@ -34,7 +34,7 @@ fn is_loss<T>(result: &Result<T, RenderError>) -> bool {
 
 /// An image that is too large for the device is told, and what comes after it has its own.
 #[test]
-fn what_comes_after_an_image_that_is_too_large_is_drawn() {
+fn objects_after_an_oversized_image_are_drawn() {
     let mut gpu = Gpu::open_headless().expect("an adapter");
     let limits = wgpu::Limits { max_texture_dimension_2d: 64, ..gpu.adapter.limits() };
     let descriptor = wgpu::DeviceDescriptor {

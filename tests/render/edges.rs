@@ -279,7 +279,7 @@ fn a_light_very_near_a_surface_is_bounded() {
 }
 
 #[test]
-fn lights_beyond_the_square_root_of_the_number_range_keep_their_direction() {
+fn lights_farther_than_the_root_of_f32_max_keep_direction() {
     // d² overflows f32 from 1.8·10¹⁹ on.
     let mut stage = Stage::new(24, 24);
     let mut failures = Failures::default();
@@ -310,7 +310,7 @@ fn lights_beyond_the_square_root_of_the_number_range_keep_their_direction() {
 
 // More than eight are read from a list. A clamp of each coordinate would turn their directions by 21°.
 #[test]
-fn nine_lights_at_the_end_of_the_number_range_keep_their_directions() {
+fn nine_lights_at_f32_max_keep_their_directions() {
     let mut stage = Stage::new(48, 48);
     let mut failures = Failures::default();
     let dim = LinearRgba::rgb(0.2, 0.15, 0.1);

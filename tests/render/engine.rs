@@ -118,7 +118,7 @@ fn a_frame_in_an_engine_s_texture_is_that_of_a_picture() {
 }
 
 #[test]
-fn what_a_plain_device_cannot_do_is_done_otherwise() {
+fn a_plain_device_uses_fallbacks() {
     let gpu = plain_device();
     assert!(gpu.device.features().is_empty() || !gpu.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE));
     let mut own = Stage::new(SIZE.x, SIZE.y);
@@ -144,7 +144,7 @@ fn what_a_plain_device_cannot_do_is_done_otherwise() {
 }
 
 #[test]
-fn what_does_not_go_into_a_texture_is_said() {
+fn an_unsuitable_texture_is_an_error() {
     use wgpu::TextureFormat::{Depth32Float, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float, Rgba32Float};
     let gpu = plain_device();
     let mut stage = Stage::new(SIZE.x, SIZE.y);
@@ -189,7 +189,7 @@ fn what_does_not_go_into_a_texture_is_said() {
 
 /// The device's callbacks are the engine's, so that it hears of the loss by them; the frame says what it cannot do.
 #[test]
-fn an_engine_s_device_that_is_destroyed_is_an_error_until_another_takes_its_place() {
+fn a_destroyed_engine_device_is_an_error_until_replaced() {
     for (lights, samples) in [(2, Samples::One), (20, Samples::Four)] {
         let row = format!("{lights} lights, {samples:?}");
         let gpu = plain_device();

@@ -40,7 +40,7 @@ fn a_failure_says_where_and_how_far_off_and_leaves_pictures() {
 }
 
 #[test]
-fn what_is_not_a_number_or_transparent_fails() {
+fn nan_and_transparent_pixels_fail() {
     let mut stage = Stage::new(8, 8);
     let good =
         stage.draw(&Scene::in_eye_space().with(Thing::square(Vec3::NEG_Z, Vec3::Z, 9.0).of(glowing(0.5, 0.5, 0.5))));

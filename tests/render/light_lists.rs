@@ -105,7 +105,7 @@ fn field(size: u32, material: Material) -> Scene {
 }
 
 #[test]
-fn lists_grow_with_what_lights_touch() {
+fn lists_grow_with_the_patches_in_reach_of_lights() {
     let mut stage = Stage::new(32, 32);
     let matte = Material::matte(LinearRgba::rgb(0.7, 0.6, 0.5));
     let mut of_each = |size: u32, pixels| {

@@ -24,7 +24,7 @@ fn scene(shading: Shading, map: Option<Map>) -> Scene {
 }
 
 #[test]
-fn a_map_on_a_mesh_without_coordinates_changes_no_bit_and_costs_no_byte() {
+fn a_map_without_coordinates_changes_and_costs_nothing() {
     for shading in SHADINGS {
         let drawn = [None, Some(map(Sampling::default(), UvTransform::default()))].map(|map| {
             let mut stage = Stage::new(64, 48);
@@ -58,7 +58,7 @@ fn an_image_of_one_color_is_another_material() {
 }
 
 #[test]
-fn a_picture_of_another_filter_place_or_image_is_found_out() {
+fn another_filter_placement_or_image_is_found() {
     let mut stage = Stage::new(64, 48);
     let right = map(Sampling::default(), UvTransform { scale: [3.0, 3.0], ..UvTransform::default() });
     let moved = UvTransform { offset: [0.05, 0.0], ..right.transform };
@@ -79,7 +79,7 @@ fn a_picture_of_another_filter_place_or_image_is_found_out() {
 /// Nothing is drawn of a ball around the camera, so that no pipeline reads its image, or solid; what is drawn after it
 /// reads the other.
 #[test]
-fn what_comes_after_something_textured_out_of_sight_is_drawn() {
+fn objects_after_a_culled_textured_one_are_drawn() {
     let (mut stage, mut failures) = (Stage::new(64, 48), Failures::default());
     let image = || vec![(MapKind::Color, map(Sampling::default(), UvTransform::default()))];
     for shading in SHADINGS {
@@ -97,7 +97,7 @@ fn what_comes_after_something_textured_out_of_sight_is_drawn() {
 }
 
 #[test]
-fn an_image_that_is_not_there_is_drawn_as_a_checker() {
+fn a_missing_image_is_drawn_as_a_checker() {
     let mut stage = Stage::new(64, 48);
     let things = stage.set(&scene(Shading::Phong, None));
     stage.world().entity_mut(things[0]).insert(Maps::new(MapKind::Color, Handle::<Texture>::default()));
@@ -117,7 +117,7 @@ fn coordinates_that_are_no_numbers_are_refused_by_name() {
 }
 
 #[test]
-fn an_uncut_picture_of_a_mask_is_found_out() {
+fn a_mask_that_cuts_nothing_is_found() {
     let mut stage = Stage::new(64, 48);
     for shading in SHADINGS {
         let holes = TexelImage::from_fn(8, 8, |x, y| [1.0, 1.0, 1.0, ((x + y) % 2) as f32]).expect("a small image");
@@ -178,7 +178,7 @@ fn a_displaced_mesh_converges_to_the_bumped_plane() {
 }
 
 #[test]
-fn normals_of_an_image_lean_as_its_coordinates_run_also_where_they_are_mirrored() {
+fn mapped_normals_follow_mirrored_coordinates() {
     // Two squares, on which u grows away from the middle, and v downward.
     let columns = [-1.0_f32, 0.0, 1.0];
     let positions: Vec<Vec3> =
@@ -321,7 +321,7 @@ fn highlights_of_furrows_are_streaks_by_moments() {
 }
 
 #[test]
-fn highlights_of_a_moving_bumpy_plane_shimmer_less_by_toksvig_and_lean() {
+fn toksvig_and_lean_reduce_shimmer_of_moving_bumps() {
     let mut stage = Stage::new(64, 48);
     // Moved by a whole pixel and more, in thirds; what a pixel shows of a plane without an end should stay about the
     // same.
@@ -337,7 +337,7 @@ fn highlights_of_a_moving_bumpy_plane_shimmer_less_by_toksvig_and_lean() {
 }
 
 #[test]
-fn far_normals_cost_nothing_where_they_do_nothing_and_are_found_out_where_they_are_left_out() {
+fn far_normals_cost_nothing_unused_and_are_missed_if_absent() {
     let mut stage = Stage::new(64, 48);
     let drawn = |stage: &mut Stage, kind: MapKind, far_normals: FarNormals| {
         let mut scene = scene(Shading::Phong, None);
@@ -357,7 +357,7 @@ fn far_normals_cost_nothing_where_they_do_nothing_and_are_found_out_where_they_a
 
 /// Two images of the size of one in place of it, where moments are read; on the CPU nothing is sent.
 #[test]
-fn moments_are_sent_for_those_who_read_them() {
+fn moments_are_uploaded_only_for_lean() {
     let mut stage = Stage::new(64, 48);
     let mut bytes = |far: FarNormals| {
         stage.set(&bumpy(far, Reflectance::BlinnPhong, 0.0));
@@ -373,7 +373,7 @@ fn moments_are_sent_for_those_who_read_them() {
 }
 
 #[test]
-fn a_picture_by_another_filter_of_the_footprints_shape_is_found_out() {
+fn another_footprint_filter_is_found() {
     let mut stage = Stage::new(64, 48);
     let with = |levels| {
         let sampling = Sampling { levels, ..Sampling::default() };

@@ -84,7 +84,7 @@ fn most_off(stage: &mut Stage, scene: &Scene, steps: f32) -> (f64, u64) {
 }
 
 #[test]
-fn what_is_left_out_of_objects_with_images_stays_within_the_tolerance() {
+fn textured_objects_stay_within_the_tolerance() {
     let mut stage = stage();
     let images = [
         ("bright", vec![(MapKind::Color, halves(0.9, 0.9)), (MapKind::Specular, halves(0.9, 0.9))]),

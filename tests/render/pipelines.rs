@@ -159,7 +159,7 @@ fn every_three_choices_that_decide_a_pipeline_build_and_draw() {
 }
 
 #[test]
-fn a_bounded_number_of_pipelines_draws_whatever_comes_one_after_the_other() {
+fn a_bounded_cache_of_pipelines_draws_every_shading() {
     // 3 shadings, 2 reflectances, 2 viewers and 17 exponents of their own: 204 keys beside the other scenes'.
     let mut stage = Stage::new(12, 12);
     let mut failures = Failures::default();
@@ -240,7 +240,7 @@ fn a_frame_that_needs_more_than_the_bound_builds_them_once() {
 }
 
 #[test]
-fn what_is_not_drawn_any_more_makes_room_in_time() {
+fn unused_pipelines_are_evicted_in_time() {
     let mut stage = Stage::new(96, 96);
     stage.draw(&squares(0..MOST));
     let mut failures = Failures::default();

@@ -127,7 +127,7 @@ fn the_divisor_follows_as_its_equation_says() {
 
 /// A tolerance is one of what is written: the same scene keeps to it under every policy.
 #[test]
-fn a_tolerance_holds_for_what_a_policy_makes_of_the_picture() {
+fn a_tolerance_holds_after_the_intensity_policy() {
     let mut stage = Stage::new(64, 48);
     for (name, policy) in POLICIES {
         let ball = Thing::new(UvSphere::new(1.0, 64, 32)).shaded(Shading::Phong);

@@ -184,7 +184,7 @@ fn run(
 }
 
 #[test]
-fn scenes_of_any_numbers_are_what_the_oracle_says() {
+fn scenes_of_any_numbers_match_the_oracle() {
     // Cones whose edges are not steeper than a picture shows, lights outside the object.
     let cone = (0.1f32..FRAC_PI_2, prop::option::of(0f32..0.9), 0f32..100.0)
         .prop_map(|(cutoff, share, exponent)| Cone { cutoff, inner: share.map(|share| share * cutoff), exponent })

@@ -49,7 +49,7 @@ fn an_open_hemisphere_shows_its_sides_under_every_policy() {
 
 /// Also where a slope may show any color around.
 #[test]
-fn other_sides_of_an_open_hemisphere_are_found_out() {
+fn wrong_sides_of_an_open_hemisphere_are_found() {
     let wrongs: [fn(&mut Thing); 4] = [
         |bowl| bowl.faces = Some(Faces::Front),
         |bowl| bowl.faces = Some(Faces::Back),
@@ -101,7 +101,7 @@ fn a_square_shows_each_side_with_its_material_and_normal() {
 }
 
 #[test]
-fn back_faces_without_a_material_of_their_own_take_the_front_one() {
+fn back_faces_default_to_the_front_material() {
     let mut stage = Stage::new(48, 48);
     for shading in SHADINGS {
         let mut scene = bowl();

@@ -21,7 +21,7 @@ fn scene(shading: Shading, solid: Option<SolidTexture>) -> Scene {
 }
 
 #[test]
-fn what_has_no_solid_pays_nothing_beside_what_has_one() {
+fn objects_without_a_solid_cost_no_more_beside_one() {
     for shading in SHADINGS {
         let mut stage = Stage::new(64, 48);
         let alone = stage.draw(&scene(shading, None));
@@ -56,7 +56,7 @@ fn a_solid_of_one_color_is_another_material() {
 }
 
 #[test]
-fn a_picture_of_another_solid_is_found_out() {
+fn a_picture_of_another_solid_is_found() {
     let mut stage = Stage::new(64, 48);
     for kind in SolidKind::ALL {
         let right = solid(kind);

@@ -24,7 +24,7 @@ fn coarse_sphere() -> Scene {
 }
 
 #[test]
-fn every_pair_of_frequencies_is_what_the_equations_say() {
+fn every_pair_of_frequencies_matches_the_equations() {
     let mut stage = Stage::new(48, 48);
     for diffuse in FREQUENCIES {
         for specular in FREQUENCIES {

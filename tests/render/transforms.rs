@@ -216,7 +216,7 @@ fn a_scene_far_from_the_origin_looks_like_one_at_it() {
 }
 
 #[test]
-fn a_scene_far_from_the_origin_does_not_jitter_as_the_camera_moves() {
+fn a_scene_far_from_the_origin_does_not_jitter() {
     // The camera and the light move by whole units, which f32 holds exactly at 10⁷; the picture must move as it does at
     // the origin, and a frame drawn again be the same.
     let frame = |origin: Vec3, step: f32, shading| {
@@ -246,7 +246,7 @@ fn a_scene_far_from_the_origin_does_not_jitter_as_the_camera_moves() {
 }
 
 #[test]
-fn lights_go_with_what_they_are_attached_to() {
+fn lights_in_a_hierarchy_move_with_their_parents() {
     let spot = SpotLight { light: point_light(), cone: Cone { cutoff: 0.6, inner: Some(0.3), exponent: 1.0 } };
     let beside = shining(Vec3::new(0.5, 1.8, 0.4), Vec3::new(-0.3, -1.0, -0.2));
     let kinds = [

@@ -67,16 +67,16 @@ fn every_combination(shading: Shading) {
 }
 
 #[test]
-fn flat_is_what_the_equations_say_in_every_combination() {
+fn flat_matches_the_equations_in_every_combination() {
     every_combination(Shading::Flat);
 }
 
 #[test]
-fn gouraud_is_what_the_equations_say_in_every_combination() {
+fn gouraud_matches_the_equations_in_every_combination() {
     every_combination(Shading::Gouraud);
 }
 
 #[test]
-fn phong_is_what_the_equations_say_in_every_combination() {
+fn phong_matches_the_equations_in_every_combination() {
     every_combination(Shading::Phong);
 }

@@ -101,7 +101,7 @@ fn rows() -> Vec<(&'static str, Hide, Scene)> {
 }
 
 #[test]
-fn what_is_hidden_is_as_if_it_were_not_there() {
+fn hidden_entities_do_not_change_the_picture() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     let whole = stage.draw(&scene());
     let mut failures = Failures::default();
@@ -132,7 +132,7 @@ fn what_is_hidden_is_as_if_it_were_not_there() {
 }
 
 #[test]
-fn what_is_hidden_is_not_checked() {
+fn hidden_entities_are_not_validated() {
     let rows: [(&str, Hide); 4] = [
         ("a transform that is no number", |world, things| {
             world.get_mut::<Transform>(things[1]).expect("it has one").translation.x = f32::NAN;
@@ -165,7 +165,7 @@ fn what_is_hidden_is_not_checked() {
 }
 
 #[test]
-fn what_is_hidden_is_not_computed() {
+fn hidden_entities_cost_no_computation() {
     let mut stage = Stage::new(8, 8);
     let things = stage.set(&scene());
     stage.frame();

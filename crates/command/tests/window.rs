@@ -53,7 +53,7 @@ fn without_drivers(program: &mut Command) {
 
 // Of one scene and size the CPU makes the same bits everywhere; a window on X and one on Wayland are to show them.
 #[test]
-fn a_window_on_wayland_shows_what_one_on_x_does() {
+fn a_window_on_wayland_matches_one_on_x() {
     let screen = Screen::open();
     let program = || {
         let mut program = view();
@@ -102,7 +102,7 @@ fn follows_keys_and_size(program: Command) {
 }
 
 #[test]
-fn the_title_counts() {
+fn the_title_shows_the_counters() {
     let screen = Screen::open();
     let mut viewer = Viewer::run(&screen, view());
     viewer.shown("Phong, Blinn–Phong", None);
@@ -280,7 +280,7 @@ fn escape_closes() {
 }
 
 #[test]
-fn without_a_display_it_says_so() {
+fn a_missing_display_is_an_error() {
     let output = view().env_remove("DISPLAY").output().expect("the command starts");
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!((output.status.code(), said.lines().count()), (Some(3), 1), "{said}");
@@ -288,7 +288,7 @@ fn without_a_display_it_says_so() {
 }
 
 #[test]
-fn without_the_adapter_that_is_asked_for_it_says_so() {
+fn a_missing_adapter_is_an_error() {
     let screen = Screen::open();
     for (name, has_drivers) in [("nothing", true), ("gpu", false)] {
         let mut program = view();

@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn the_wait_for_the_display_is_no_sets() {
+    fn waiting_for_the_display_counts_to_no_set() {
         let mut times = FrameTimes::default();
         let start = Instant::now();
         times.begin(start);

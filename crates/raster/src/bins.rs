@@ -330,7 +330,7 @@ mod tests {
 
     /// Whatever parts there are, jobs come in the order of drawing, with the states that they have in one part.
     #[test]
-    fn parts_find_what_one_finds() {
+    fn parallel_binning_matches_one_thread() {
         let strip: Vec<[f32; 3]> = (0..102).map(|k| [0.01 * k as f32, (k % 2) as f32, 0.0]).collect();
         let indices: Vec<u32> = (0..100).flat_map(|k| [k, k + 1, k + 2]).collect();
         let mesh = Pieces::new(&strip, VertexLists::default(), &indices, &[], TriangleOrder::Clustered).unwrap();

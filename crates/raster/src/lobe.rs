@@ -146,7 +146,7 @@ mod tests {
     /// Of two axes, of such as are turned, of none, of widths that would give exponents below 0, and toward the normal
     /// itself.
     #[test]
-    fn highlights_of_two_axes_are_those_of_the_equations_on_every_width() {
+    fn anisotropic_highlights_match_the_equations() {
         let (straight, turned) = ([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[0.8, 0.6, 0.0], [0.6, -0.8, 0.0]]);
         let unit = |d: [f32; 3]| vector::normalize(d.map(f64::from)).expect("a direction").map(|x| x as f32);
         let v = unit([0.1, -0.2, 1.0]);

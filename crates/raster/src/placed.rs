@@ -176,7 +176,7 @@ mod tests {
     proptest! {
         // Boxes from flat to wide, near and far from the origin of the model, under any transform.
         #[test]
-        fn what_shows_in_a_tile_is_in_its_list(
+        fn every_visible_triangle_is_in_its_tiles_list(
             middle in prop::array::uniform3(-1.0_f32..1.0),
             away in prop::sample::select(vec![0.0_f32, 1.0, 100.0, 10_000.0]),
             half in prop::array::uniform3(prop::sample::select(vec![0.0_f32, 0.001, 0.1, 2.0])),
@@ -207,7 +207,7 @@ mod tests {
 
     /// Whether a plate at a place, and with a near plane, is at hand.
     #[test]
-    fn nothing_is_at_hand_that_is_clipped_or_wide() {
+    fn clipped_and_wide_boxes_are_not_at_hand() {
         let at_hand = |x: f32, z: f32, near: f32| {
             let rows = [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, z]];
             let plate = [[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.1, 0.1, 0.0], [-0.1, 0.1, 0.0]];

@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn losing_the_focus_lets_everything_go() {
+    fn losing_the_focus_releases_every_key() {
         let (mut app, mut forward) = stage();
         let (key_code, logical_key) = (KeyCode::KeyW, Key::Character("w".into()));
         let (state, window) = (ButtonState::Pressed, Entity::PLACEHOLDER);

@@ -116,7 +116,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cameras_turn_about_what_they_look_at() {
+    fn cameras_orbit_the_point_that_they_face() {
         let at = |x, y, z, target: Vec3| Transform::from_xyz(x, y, z).looking_at(target, Vec3::Y);
         let rows = [
             ("at the origin", at(0.0, 3.0, 4.0, Vec3::ZERO), 5.0),

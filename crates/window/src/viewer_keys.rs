@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn digits_set_the_shading_of_cameras_and_of_objects_with_their_own() {
+    fn digit_keys_set_the_shading_of_cameras_and_objects() {
         let rows = [
             (KeyCode::Digit1, "1", Shading::Flat),
             (KeyCode::Digit2, "2", Shading::Gouraud),
@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn b_switches_what_is_shown() {
+    fn b_switches_the_reflectance() {
         use Reflectance::{BlinnPhong, BlinnPhongMatched, Phong};
         // The camera's own, the objects' own, and what all have after one press and after two.
         let rows = [

@@ -113,7 +113,7 @@ fn with_many_lights(mut scene: Value) -> Value {
 
 /// Lights that are missing, and would show by more than was allowed, are found.
 #[test]
-fn light_that_is_missing_is_found() {
+fn missing_light_is_found() {
     let judge = judge_of(&AdapterChoice::cpu()).within(1.0).with_fault(without_last_light).until_wrong();
     let found = (0..16).filter(|&number| judge.judge(&scene(SEED, number)).is_err()).count();
     assert!(found >= 4, "found in {found} of 16 scenes");
@@ -219,23 +219,23 @@ fn is_found_among(numbers: impl Iterator<Item = u64>, fault: Fault, objects: Ran
 }
 
 #[test]
-fn a_light_less_is_found_and_made_small() {
+fn a_missing_light_is_found_and_minimised() {
     is_found_and_made_small(without_last_light, 1..=2);
 }
 
 #[test]
-fn broader_highlights_are_found_and_made_small() {
+fn broader_highlights_are_found_and_minimised() {
     is_found_and_made_small(with_broader_highlights, 1..=2);
 }
 
 #[test]
-fn undone_mirrors_are_found_and_made_small() {
+fn undone_mirrors_are_found_and_minimised() {
     // From the last on, as the first that shows it takes minutes to judge a hundred times.
     is_found_among((0..40).rev(), with_mirrors_undone, 1..=2);
 }
 
 /// An environment shows without any object.
 #[test]
-fn a_turned_environment_is_found_and_made_small() {
+fn a_turned_environment_is_found_and_minimised() {
     is_found_and_made_small(with_another_environment, 0..=2);
 }

@@ -99,7 +99,7 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
                 times 2⁻²⁴ on, 0.6 % at a hundred thousand times the near plane's distance n.",
         remedy: "Reversed depth, n/d, in floating point, as this project has it: gaps of about 2⁻²³ at any distance. Else move \
                  the near plane away.",
-        test: "reversed_depth_parts_what_standard_depth_does_not",
+        test: "reversed_depth_separates_closer_surfaces",
         figures: vec![figure(
             "depth",
             "The least gap between two surfaces that the nearer one hides (powers of two)",
@@ -120,7 +120,7 @@ mod tests {
     use crate::failures::testing::test_drawers;
 
     #[test]
-    fn reversed_depth_parts_what_standard_depth_does_not() {
+    fn reversed_depth_separates_closer_surfaces() {
         let distances: Vec<f64> = (1..=17).map(|power| 2f64.powi(power)).collect();
         for ChartedAdapter { name, adapter } in test_drawers() {
             for (distance, gap) in parted(adapter, &distances).expect("squares can be drawn") {

@@ -86,7 +86,7 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
                 lamp loses nothing.",
         remedy: "Keep the viewer within about 10⁴ times the distance between a lamp and what it lights, where 8 bits do not show \
                  it; a directional light has no place that could be rounded.",
-        test: "far_viewers_and_near_lights_lose_what_rounding_takes",
+        test: "rounding_bounds_errors_of_far_viewers_and_near_lights",
         figures: vec![figure(
             "distances",
             "Largest relative error against the oracle, floating-point target",
@@ -108,7 +108,7 @@ mod tests {
     use crate::failures::testing::{slope, test_drawers};
 
     #[test]
-    fn far_viewers_and_near_lights_lose_what_rounding_takes() {
+    fn rounding_bounds_errors_of_far_viewers_and_near_lights() {
         for ChartedAdapter { name, adapter } in test_drawers() {
             let near = errors(adapter, Distant::Light).expect("a lamp can be drawn");
             // A few roundings of the viewer's distance, 3, over that of the lamp; and of what is computed.

@@ -89,7 +89,7 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
                 nothing: many thin layers stop short of what they should reach, by up to ½/o steps for an opacity of o, and blue \
                 of 0.3 under 0.005 never shows. The CPU without a driver keeps tiles in floating point and rounds once.",
         remedy: "Blend into a floating-point target (Pixels::Float) and round once, or draw fewer layers of more opacity.",
-        test: "thin_layers_stop_short_by_what_roundings_add_up_to",
+        test: "thin_layers_stop_short_by_the_sum_of_roundings",
         figures: vec![Figure::new("failure-blended-layers", title, axes, panels)],
         pictures: judged(
             drawers,
@@ -106,7 +106,7 @@ mod tests {
     use crate::failures::testing::test_drawers;
 
     #[test]
-    fn thin_layers_stop_short_by_what_roundings_add_up_to() {
+    fn thin_layers_stop_short_by_the_sum_of_roundings() {
         for opacity in [0.5f32, 0.05, 0.005] {
             let o = f64::from(opacity);
             for ChartedAdapter { name, adapter } in test_drawers() {

@@ -194,7 +194,7 @@ fn the_page_holds_all_and_fetches_nothing() {
 }
 
 #[test]
-fn tables_are_told_in_markdown() {
+fn tables_are_written_in_markdown() {
     let pages = report().pages().expect("pages can be made");
     let markdown = pages[0].markdown();
     for text in ["## sphere\n", "What to choose for sphere on the adapter", "| distance of a point light (radii) |"] {

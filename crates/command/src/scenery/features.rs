@@ -227,7 +227,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn features_are_told_apart() {
+    fn features_have_distinct_names_and_values() {
         let all = Feature::all();
         assert_eq!(all[0], Feature::BASELINE);
         for (i, one) in all.iter().enumerate() {

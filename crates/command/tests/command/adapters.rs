@@ -87,7 +87,7 @@ fn every_adapter_of_the_list_can_be_chosen() {
 type Row<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str], i32);
 
 #[test]
-fn a_name_that_fits_nothing_lists_what_there_is() {
+fn a_name_without_a_match_lists_the_adapters() {
     let folder = folder("no_such_adapter");
     let teapot = asset("assets/teapot.obj");
     let all = listed(&folder, &[]);
@@ -217,7 +217,7 @@ fn opengl_is_tried_before_giving_up() {
 }
 
 #[test]
-fn a_machine_without_a_session_hears_nothing_of_it() {
+fn a_machine_without_a_session_prints_no_warning() {
     let folder = folder("no_session");
     let teapot = asset("assets/teapot.obj");
     let render = ["render", &teapot, "--size", "32x24", "-o", "a.png"];

@@ -125,7 +125,7 @@ fn a_model_is_timed_under_the_lights_that_it_is_drawn_under() {
 }
 
 #[test]
-fn a_tolerance_is_for_whoever_asks() {
+fn a_tolerance_applies_only_on_request() {
     let folder = folder("tolerance");
     let bench = |tolerance: &[&str]| {
         json_of(&folder, &[&["bench", "s4", "--size", "16x16", "--rounds", "1", "--json"], tolerance].concat())

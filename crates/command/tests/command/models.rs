@@ -18,7 +18,7 @@ fn quantised_models_are_smaller_and_say_how_far_off() {
 }
 
 #[test]
-fn convert_changes_formats_and_says_what_is_lost() {
+fn convert_changes_formats_and_reports_losses() {
     let folder = folder("convert");
     let said = succeeds(&folder, &["convert", &asset("assets/teapot.obj"), "teapot.smf"]);
     assert!(said.contains("teapot.smf: 5 parts") && said.contains("lost       1 materials"), "{said}");

@@ -43,7 +43,7 @@ fn each_a_little_later(screen: impl Fn() -> Screen, mut take_away: impl FnMut(&S
 }
 
 #[test]
-fn a_lost_device_is_said_once_and_all_is_drawn_on() {
+fn a_lost_device_is_logged_once_and_drawing_continues() {
     const LOSSES: usize = 3;
     let screen = Screen::open();
     let mut viewer = Viewer::run(&screen, heard(device_loser()));
@@ -90,7 +90,7 @@ fn a_lost_surface_is_made_anew() {
 }
 
 #[test]
-fn surfaces_that_are_lost_for_ever_end_it_with_an_error() {
+fn permanently_lost_surfaces_end_the_app_with_an_error() {
     let screen = Screen::open();
     let mut viewer = Viewer::run(&screen, heard(device_loser()));
     viewer.shown("Phong, Blinn–Phong", None);
@@ -101,7 +101,7 @@ fn surfaces_that_are_lost_for_ever_end_it_with_an_error() {
 }
 
 #[test]
-fn a_window_that_is_taken_away_ends_it() {
+fn a_destroyed_window_ends_the_app() {
     each_a_little_later(Screen::open, |screen, mut viewer| {
         screen.destroy(viewer.window);
         let (code, said) = last_words(&mut viewer);
@@ -112,7 +112,7 @@ fn a_window_that_is_taken_away_ends_it() {
 }
 
 #[test]
-fn a_display_that_ends_ends_it_with_an_error() {
+fn a_closed_display_ends_the_app_with_an_error() {
     each_a_little_later(Screen::open_own, |screen, mut viewer| {
         screen.end();
         let (code, said) = last_words(&mut viewer);

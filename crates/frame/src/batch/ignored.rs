@@ -38,7 +38,7 @@ mod tests {
     use halfway_texture::{Channel, FarNormals, Sampling, UvSet};
 
     #[test]
-    fn what_turns_normals_is_ignored_where_no_term_is_shaded_at_the_fragments() {
+    fn normal_maps_are_ignored_without_fragment_terms() {
         let (uv_set, channel, far_normals) = (UvSet::First, Channel::Red, FarNormals::Mean);
         let look = MapLook { sampling: Sampling::default(), uv_set, channel, far_normals };
         let all = MapLooks([Some(look); MapKind::COUNT]);

@@ -304,7 +304,7 @@ mod tests {
     use std::collections::HashSet;
 
     #[test]
-    fn relatives_are_generic_and_every_shading_is_among_them() {
+    fn generic_keys_cover_every_shading() {
         let relatives: HashSet<_> = DrawKey::plain().relatives().collect();
         assert_eq!(relatives.len(), 6, "three shadings by two reflectances");
         assert!(relatives.contains(&DrawKey::plain().generic()) && !relatives.contains(&DrawKey::plain()));

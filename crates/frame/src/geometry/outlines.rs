@@ -206,7 +206,7 @@ mod tests {
 
     /// Rounded bounds are never less, and nothing hides what may face anywhere.
     #[test]
-    fn what_faces_the_eye_is_not_hidden() {
+    fn patches_that_face_the_eye_are_not_hidden() {
         let mut seed = 3_u32;
         let mut random = || {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

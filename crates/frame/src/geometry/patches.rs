@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn patches_hold_every_triangle_once_and_all_that_is_said_of_them() {
+    fn patches_hold_every_triangle_once_with_true_bounds() {
         for mesh in [Mesh::from(UvSphere::new(2.0, 96, 48)), Mesh::from(Plane { size: 200.0, divisions: 64 })] {
             let MeshTriangles { corners: triangles, patches, .. } = MeshTriangles::in_patches(&mesh);
             let sorted = |mut triangles: Vec<[u32; 3]>| {

@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn of_many_lights_those_that_lists_name_are_sent_once() {
+    fn listed_lights_are_uploaded_once() {
         // At 0, 10, 20 and so on along the x axis, each reaching 6 units.
         let lights = Lights::in_a_row(1000, 10.0, 6.0);
         let mut lists = LightLists::default();
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn few_lights_are_all_sent_in_their_order() {
+    fn few_lights_are_all_uploaded_in_their_order() {
         let (sun, lamp, spot) = (DirectionalLight::white(), PointLight::white(), SpotLight::default());
         let lights = Lights::at_the_origin(&[sun.into(), lamp.into(), lamp.into(), spot.into()]);
         let mut lists = LightLists::default();

@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_slope_keeps_its_normal() {
+    fn a_flat_height_keeps_its_normal() {
         let n = [0.0, 0.6, 0.8];
         let along = [[1.0, 0.0, 0.0], [0.0, 0.8, -0.6]];
         close(bumped_normal(n, n, along, [0.0; 2], n), n);

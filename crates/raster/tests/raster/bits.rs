@@ -167,7 +167,7 @@ fn the_narrowest_width_is_what_every_cpu_of_the_target_has() {
 }
 
 #[test]
-fn ten_pictures_have_the_same_bits_on_every_width_and_with_any_threads() {
+fn ten_pictures_have_the_same_bits_on_every_simd_level() {
     let scenes = scenes();
     let mut found = Vec::new();
     for width in VectorWidth::available() {

@@ -147,12 +147,12 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_triangle_covers_what_the_fill_rule_says(triangle in triangle()) {
+    fn a_triangle_covers_pixels_by_the_fill_rule(triangle in triangle()) {
         check(&[triangle])?;
     }
 
     #[test]
-    fn many_triangles_cover_what_the_fill_rule_says(triangles in prop::collection::vec(triangle(), 2..70)) {
+    fn many_triangles_cover_pixels_by_the_fill_rule(triangles in prop::collection::vec(triangle(), 2..70)) {
         // More than one vector of them, and more than one piece.
         check_by(covers, &triangles, Samples::One, false)?;
         check_by(covers, &triangles, Samples::Four, false)?;

@@ -95,7 +95,7 @@ fn blended_surfaces_are_laid_over_in_order() {
 }
 
 #[test]
-fn blended_surfaces_are_drawn_after_opaque_ones_and_hidden_by_them() {
+fn blended_surfaces_are_drawn_after_opaque_ones() {
     let mut scene = squares(&[(2.0, RED, 0.5), (4.0, RED, 0.5), (3.0, GREEN, 1.0)], true);
     scene.draws[2].blend = false;
     every_pixel_is(&scene, [0.5, 0.5, 0.0]);
@@ -203,7 +203,7 @@ fn refusal(scene: &Scene) -> RasterError {
 }
 
 #[test]
-fn what_is_wrong_is_refused_and_named() {
+fn invalid_passes_are_refused_by_name() {
     type Spoil = fn(&mut Scene);
     let cases: [(&str, Spoil); 10] = [
         ("each side must be", |scene| scene.size = [LARGEST_SIDE + 1, 4]),
@@ -248,14 +248,14 @@ fn meshes_that_are_not_sound_are_refused() {
 }
 
 #[test]
-fn unknown_widths_are_refused_with_those_that_there_are() {
+fn an_unknown_simd_level_is_refused_with_a_list() {
     let refused = VectorWidth::named("mmx").expect_err("long gone").to_string();
     let plainest = VectorWidth::available().last().expect("one").to_string();
     assert!(refused.contains("\"mmx\"") && refused.contains(&plainest), "{refused}");
 }
 
 #[test]
-fn what_collapses_draws_nothing_or_itself_and_is_finite() {
+fn collapsed_triangles_give_finite_pictures() {
     let mut scene = sphere(true, Shading::Phong).expect("a sound mesh");
     scene.pixels = PixelFormat::Floats;
     for rows in [

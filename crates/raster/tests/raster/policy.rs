@@ -104,7 +104,7 @@ fn extremes_stay_numbers() {
 }
 
 #[test]
-fn what_cannot_be_finished_is_refused() {
+fn invalid_policies_are_refused() {
     let rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
     let (mut few, mut floats) = ([0_u8; 4], [0.0; 8]);
     let aces = Intensity::Aces;

@@ -30,7 +30,7 @@ fn color(truth: &Oracle, x: f64, y: f64) -> [f64; 3] {
 }
 
 #[test]
-fn colors_go_on_beside_a_triangle_as_far_as_a_fine_grid_moves_it_and_no_farther() {
+fn colors_extend_beside_a_triangle_as_far_as_the_grid() {
     let mut truth = steep();
     let judged = oracle(&mut truth);
     let picture = judged.draw();

@@ -25,7 +25,7 @@ fn middle(stage: &mut Stage) -> [f64; 3] {
 }
 
 #[test]
-fn blended_objects_are_drawn_from_back_to_front_over_the_opaque_ones() {
+fn blended_objects_are_drawn_back_to_front() {
     let mut stage = Stage::new();
     stage.add(wall(9.0, 2.0), veil(of(RED), 0.5));
     stage.add(wall(9.0, 5.0), of(BLUE));

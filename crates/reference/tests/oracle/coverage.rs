@@ -119,7 +119,7 @@ fn a_floor_runs_through_the_near_plane_and_behind_the_eye() {
 }
 
 #[test]
-fn what_is_behind_the_eye_or_before_the_near_plane_is_not_drawn() {
+fn objects_before_the_near_plane_are_not_drawn() {
     let mut stage = Stage::new();
     stage.add(wall(4.0, -2.0), (glow(1.0, 1.0, 1.0), Faces::Both));
     stage.add(wall(4.0, 0.05), glow(1.0, 1.0, 1.0));

@@ -19,7 +19,7 @@ fn sheet(change: impl Fn(&Mesh) -> Mesh) -> Stage {
 }
 
 #[test]
-fn sheets_that_a_coarse_grid_folds_pass_and_holes_in_them_are_found() {
+fn folded_sheets_pass_and_their_holes_are_found() {
     let mut truth = sheet(Mesh::clone);
     let judged = oracle(&mut truth);
     let plain = judged.draw();

@@ -69,7 +69,7 @@ fn judged(truth: &mut Stage, actual: &Image) -> Verdict {
 }
 
 #[test]
-fn mirrored_environments_pass_with_four_samples_where_they_are_right() {
+fn right_mirrored_environments_pass_with_four_samples() {
     for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
         let picture = drawn(&mirror(0.8, shading).oracle(SIZE, SIZE), false);
         let verdict = judged(&mut mirror(0.8, shading), &picture);
@@ -137,7 +137,7 @@ fn floor(is_cut: bool) -> Stage {
 /// The near plane leaves a quadrangle of a triangle, which is drawn as two triangles: a pixel on their seam is shaded
 /// in both.
 #[test]
-fn seams_of_what_the_near_plane_cuts_pass_and_no_others() {
+fn only_seams_of_near_clipped_triangles_pass() {
     for is_cut in [true, false] {
         let mut truth = floor(is_cut);
         let oracle = truth.oracle(SIZE, SIZE);

@@ -28,7 +28,7 @@ fn difference(a: &Image, b: &Image) -> f64 {
 }
 
 #[test]
-fn what_is_interpolated_goes_with_the_rounded_corners() {
+fn interpolation_uses_the_rounded_corners() {
     // Corners at 2.15 and 10.15 pixels, which whole pixels bring to 2 and 10, and quarters to 2.25 and 10.25.
     let mut stage = ramp(-0.73125, 0.26875, -0.26875, 0.73125);
     let exact = stage.oracle(16, 16).draw();
@@ -73,7 +73,7 @@ fn strips() -> Stage {
 }
 
 #[test]
-fn a_picture_that_is_right_on_the_grid_alone_passes_as_a_whole_or_not_at_all() {
+fn a_picture_on_the_grid_passes_only_as_a_whole() {
     let mut stage = strips();
     let exact = stage.oracle(16, 16);
     let (expected, picture) = (exact.draw(), stage.oracle(16, 16).on_grid(4).draw());

@@ -331,7 +331,7 @@ fn an_exponent_one_hundredth_off_is_found() {
 }
 
 #[test]
-fn the_near_side_of_a_blended_object_before_its_far_side_is_found() {
+fn a_wrong_order_of_blended_sides_is_found() {
     let [near, far] = [(0.9, 0.1), (0.1, 0.9)].map(|(red, green)| Material { opacity: 0.5, ..glow(red, green, 0.2) });
     let mesh = ball(Vec3::new(0.0, 0.0, -2.0), 1.0, 32, 16);
     let mut truth = Stage::new();
@@ -460,7 +460,7 @@ fn four_samples(oracle: &Oracle, extrapolated: bool) -> Image {
 }
 
 #[test]
-fn what_only_the_centres_meet_is_found_with_four_samples() {
+fn an_object_only_at_centres_is_found_with_four_samples() {
     // A bar from top to bottom between the samples of column 48: the oracle's own picture, of the centres, shows it.
     let mut truth = Stage::new();
     *truth.camera() = Camera { samples: Samples::Four, ..*truth.camera() };

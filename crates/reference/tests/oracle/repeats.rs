@@ -35,7 +35,7 @@ fn crowd() -> Stage {
 }
 
 #[test]
-fn a_point_of_the_picture_is_what_the_pixel_is() {
+fn a_probe_at_a_pixels_centre_matches_the_pixel() {
     let (width, height) = (90, 60);
     let oracle = crowd().oracle(width, height);
     let image = oracle.draw();

@@ -186,7 +186,7 @@ fn the_mode_can_be_changed_back() {
 }
 
 #[test]
-fn a_teapot_before_and_around_the_eye_is_seen_the_same_by_points_and_pixels() {
+fn probes_of_a_teapot_around_the_eye_match_its_pixels() {
     for at in [Vec3::new(0.0, -1.0, -5.0), Vec3::new(0.0, -1.0, 0.0)] {
         let mut stage = Stage::new();
         let looks = (Material::BRASS, Faces::Both);

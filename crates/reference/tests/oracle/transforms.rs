@@ -76,7 +76,7 @@ fn a_sphere_pressed_to_a_line_or_a_point_is_not_there() {
 }
 
 #[test]
-fn shear_and_unequal_scale_turn_normals_by_the_inverse_transpose() {
+fn sheared_normals_use_the_inverse_transpose() {
     let shear = Mat3::from_cols(Vec3::new(2.0, 0.0, 0.0), Vec3::new(0.5, 1.0, 0.25), Vec3::new(0.0, 0.75, 3.0));
     let corners = [Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, -1.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
     for mirror in [1.0, -1.0] {

@@ -335,7 +335,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn the_kernel_tells_of_graphics_cards() {
+    fn the_kernel_lists_graphics_cards() {
         let folder = std::env::temp_dir().join(format!("halfway_devices_{}", std::process::id()));
         let with = |node: &str| {
             let path = folder.join(node);
@@ -354,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn who_says_more_nearly_goes_first() {
+    fn the_more_specific_choice_wins() {
         let wanted = |own: Option<&str>, set: &[(&str, &str)]| {
             let choice = AdapterChoice { name: own.map(str::to_owned) };
             let variable = |name: &str| set.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned());

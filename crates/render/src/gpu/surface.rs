@@ -146,7 +146,7 @@ mod tests {
 
     // No driver at hand can be made to let the time run out.
     #[test]
-    fn a_surface_without_a_picture_skips_the_frame_and_only_a_lost_one_is_given_up() {
+    fn a_surface_without_a_texture_skips_the_frame() {
         for (current, is_stale) in [
             (Current::Timeout, false),
             (Current::Occluded, false),

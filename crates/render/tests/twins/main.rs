@@ -69,7 +69,7 @@ fn far_of(row: &Row, results: Vec<[f32; adapter::RESULT]>) -> Option<String> {
 }
 
 #[test]
-fn each_function_gives_what_its_twin_gives() {
+fn each_function_matches_its_twin() {
     let gpu = Gpu::open_headless().expect("an adapter");
     let failures: Vec<String> = rows().iter().filter_map(|row| too_far(&gpu, &LIGHTING, row)).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));

@@ -20,7 +20,7 @@ fn too_far(gpu: &Gpu, solids: &str, row: &Row) -> Option<String> {
 }
 
 #[test]
-fn each_function_of_solids_gives_what_its_twin_gives() {
+fn each_function_of_solids_matches_its_twin() {
     let gpu = Gpu::open_headless().expect("an adapter");
     let failures: Vec<String> = solid_rows().iter().filter_map(|row| too_far(&gpu, SOLIDS, row)).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));

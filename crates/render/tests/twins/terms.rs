@@ -233,7 +233,7 @@ fn too_far(gpu: &Gpu, text: &str, row: &Row) -> Option<String> {
 }
 
 #[test]
-fn each_sum_of_terms_is_what_the_equations_give() {
+fn each_sum_of_terms_matches_the_equations() {
     let gpu = Gpu::open_headless().expect("an adapter");
     let failures: Vec<String> = rows()
         .iter()

@@ -122,7 +122,7 @@ proptest! {
 
     /// Any projective map, any way to wrap, against the pixel cut along the texels' edges.
     #[test]
-    fn any_footprint_is_what_cutting_the_pixel_says(
+    fn any_footprint_matches_the_clipped_pixel(
         u in prop::array::uniform3(-0.8..0.8_f64), v in prop::array::uniform3(-0.8..0.8_f64),
         w in prop::array::uniform2(-0.7..0.7_f64),
         wrap in prop::sample::select(vec![Wrap::Repeat, Wrap::Mirror, Wrap::Clamp]),

@@ -43,7 +43,7 @@ const ABOUT_DRIVERS: [(&str, &[&str]); 16] = [
     ("crates/render/src/gpu/timer.rs", &["frames_that_are_refused_have_no_time"]),
     ("crates/render/src/gpu/draw/pass.rs", &["nothing_is_left_out_without_an_error"]),
     ("crates/render/src/gpu/pipelines/cache/tests.rs", &[]),
-    ("crates/render/src/gpu/pipelines/compile.rs", &["what_cannot_be_built_comes_back", "the_thread_ends_with"]),
+    ("crates/render/src/gpu/pipelines/compile.rs", &["a_failed_pipeline_returns", "the_thread_ends_with"]),
     (
         "crates/command/tests/command/adapters.rs",
         &[
@@ -65,12 +65,12 @@ const ABOUT_DRIVERS: [(&str, &[&str]); 16] = [
         "tests/render/counters.rs",
         &[
             "pipelines_do_not_grow",
-            "what_a_draw_does_not_use",
+            "shaders_hold_only",
             // The CPU reads in place the data that is uploaded to wgpu.
             "a_change_uploads",
         ],
     ),
-    ("tests/render/cpu.rs", &["what_draws_may_change", "a_device_s_texture"]),
+    ("tests/render/cpu.rs", &["the_adapter_may_change", "a_device_s_texture"]),
     ("tests/render/floats.rs", &["a_device_that_cannot"]),
     ("tests/render/timing.rs", &["the_gpu_is_timed", "frames_that_nobody_waits_for"]),
 ];

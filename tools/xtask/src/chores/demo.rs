@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn models_are_looked_for_before_anything_is_built() {
+    fn models_are_checked_before_the_build() {
         // Tests run in their package's folder.
         assert_eq!(model(Path::new("Cargo.toml")), Ok(Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml")));
         let problem = model(Path::new("no/such.obj")).unwrap_err();

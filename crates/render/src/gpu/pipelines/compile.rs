@@ -110,7 +110,7 @@ mod tests {
     use halfway_frame::batch::key::DrawKey;
 
     #[test]
-    fn what_cannot_be_built_comes_back_as_an_error() {
+    fn a_failed_pipeline_returns_an_error() {
         let gpu = Gpu::open_headless().unwrap();
         let shaders = Arc::default();
         let builder = Builder::start(&gpu, &shaders).unwrap();

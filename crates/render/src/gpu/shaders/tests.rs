@@ -105,7 +105,7 @@ fn opengl_gets_texts_without_the_first_vertex() {
 }
 
 #[test]
-fn what_no_tool_can_read_is_found() {
+fn a_text_that_naga_rejects_is_found() {
     let lighting = PLAIN.files()[0];
     for (right, wrong) in [("1e6;", "ATTENUATION;"), ("return w * w;", "LOOPS"), ("fn power(", "fn powers(")] {
         assert!(valid(&lighting.replacen(right, wrong, 1)).is_err(), "{wrong} for {right} passes");
@@ -149,7 +149,7 @@ fn badly_interpolated(module: &naga::Module) -> (Vec<String>, usize) {
 
 /// Of a pixel with four samples of which a triangle covers some, the centre may lie outside the triangle.
 #[test]
-fn what_is_interpolated_is_taken_where_the_triangle_is() {
+fn varyings_are_sampled_at_the_centroid() {
     for text in texts() {
         let (wrong, right) = badly_interpolated(&valid(&text.wgsl()).expect("a valid text"));
         assert_eq!(wrong, [""; 0], "{text:?}");
@@ -247,7 +247,7 @@ fn records_lie_as_the_texts_read_them() {
 }
 
 #[test]
-fn where_an_image_lies_is_read_as_it_is_written() {
+fn the_placement_of_an_image_has_one_layout() {
     let module = valid(&MAPPED.wgsl()).expect("a valid text");
     assert_eq!(members(&module, "Placing"), fields!(PlacingRecord { row0, row1, levels, level }));
     assert_eq!(members(&module, "Placings"), fields!(PlacingsRecord { cutoff, each }));
@@ -348,7 +348,7 @@ fn instances_lie_as_the_vertex_stages_read_them() {
 }
 
 #[test]
-fn lights_at_fixed_places_are_as_many_as_are_bound() {
+fn fixed_lights_match_their_bindings() {
     for text in texts().filter(|text| text.lights != LightText::Listed) {
         let module = valid(&text.wgsl()).expect("a valid text");
         let lights = module.global_variables.iter().find(|(_, global)| global.name.as_deref() == Some("lights"));
@@ -360,7 +360,7 @@ fn lights_at_fixed_places_are_as_many_as_are_bound() {
 
 /// A module has the functions for the kinds of images that its draw has, and no others.
 #[test]
-fn what_constants_rule_out_is_not_in_a_module() {
+fn constants_remove_dead_code_from_modules() {
     let functions = |text: Text, constants: &[(&'static str, f64)]| {
         let template = Template::new(&text.wgsl());
         let fragment = EntryPoint { stage: naga::ShaderStage::Fragment, name: "fs_surface", constants };

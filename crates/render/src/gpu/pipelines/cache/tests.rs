@@ -56,7 +56,7 @@ fn no_special_one_is_awaited_after_the_first_frame() {
 }
 
 #[test]
-fn what_cannot_be_built_is_reported_and_not_tried_again() {
+fn a_failed_pipeline_is_reported_and_not_retried() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     // No adapter takes three samples a pixel.
@@ -156,7 +156,7 @@ fn frames_build_for_themselves_where_there_is_no_thread() {
 }
 
 #[test]
-fn both_passes_get_room_in_the_same_frame() {
+fn both_passes_fit_in_the_cache_in_one_frame() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     let mut draw = |keys: &[DrawKey]| {
@@ -175,7 +175,7 @@ fn both_passes_get_room_in_the_same_frame() {
 }
 
 #[test]
-fn the_one_unused_for_longest_makes_room() {
+fn the_least_recently_used_pipeline_is_evicted() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     let mut draws = |keys: &[u16]| {
