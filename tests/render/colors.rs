@@ -1,4 +1,4 @@
-//! Colours at the vertices: what they do is what the oracle says, and what does not have them pays nothing for them.
+//! Vertex colours match the oracle, and objects without them do not pay for them.
 
 use crate::render::compare::{FLOAT, judge};
 use crate::render::conformance::colors::colored;

@@ -1,4 +1,4 @@
-//! Pipelines that are built beside the frames: nothing waits for those of its own, and nothing looks different.
+//! Pipelines built in the background: no frame waits for its specialised ones, and pictures do not change.
 
 use crate::render::compare::{FLOAT, Failures, assert_identical};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light};
@@ -80,7 +80,7 @@ fn a_new_kind_is_drawn_at_once_and_by_its_own_pipeline_in_time() {
         ("Phong's reflectance", true, |scene| scene.view_reflectance = Some(Reflectance::Phong)),
         ("flat shading", true, |scene| scene.view_shading = Some(Shading::Flat)),
         ("Gouraud shading", true, |scene| scene.view_shading = Some(Shading::Gouraud)),
-        // Of these the generic one has not been foreseen.
+        // The generic pipelines of these are not built in advance.
         ("without a highlight", false, |scene| scene.things[0].material.specular = LinearRgba::BLACK),
         ("an infinite viewer", false, |scene| scene.camera.viewer = Viewer::Infinite),
         ("both faces", false, |scene| {
@@ -100,7 +100,7 @@ fn a_new_kind_is_drawn_at_once_and_by_its_own_pipeline_in_time() {
         failures.draw(&format!("{row}, generic"), &mut stage, &scene, FLOAT);
         let generic = u32::from(!foreseen);
         assert_eq!(counts(&stage), (1 + RELATIVES + generic, 1, generic), "{row}");
-        // Lights are compiled into a pipeline of one's own; generic ones read lists.
+        // Specialised pipelines have their lights compiled in; generic ones read lists.
         assert!(stage.report().lights_assigned > 0, "{row} is not drawn by a generic pipeline");
         stage.compile();
         let picture = stage.float();
@@ -137,7 +137,7 @@ fn no_frame_after_the_first_waits_in_a_scene_that_changes() {
         }
     }
     stage.compile();
-    // One of each was there before: the first frame's.
+    // One of each existed before: the first frame's.
     assert_eq!(counts(&stage), (before + asked - 1, 0, 0));
 }
 

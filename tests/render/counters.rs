@@ -1,4 +1,4 @@
-//! The counters of a frame: nothing is done twice, and nothing that cannot be seen.
+//! The counters of a frame: no work is done twice, or for invisible objects.
 
 use crate::render::compare::{Failures, assert_as_expected, assert_identical};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light};
@@ -30,7 +30,7 @@ fn a_hundred_equal_objects_are_one_draw() {
     assert_eq!(report.triangles, 100 * 2 * 8 * 3);
     assert_eq!(report.matrices, 100);
     assert_eq!(report.errors, []);
-    // The CPU has none.
+    // The CPU has no pipelines.
     assert_eq!(report.pipelines, u32::from(!stage.is_on_cpu()));
 }
 
@@ -288,7 +288,7 @@ fn objects_outside_the_frustum_are_not_drawn() {
         assert_eq!(report.objects, 1, "{row}");
         let shows = picture.pixels().any(|pixel| pixel.0[0] > 0.0);
         match seen {
-            // Visible parts must have been drawn, and those cut away must not.
+            // Visible parts must have been drawn, and culled ones must not.
             Some(true) => {
                 assert!(shows && report.visible == 1 && report.draws == 1, "{row}: shows {shows}, {report:?}");
             }

@@ -1,4 +1,4 @@
-//! Frames on a device of an engine's own, by an encoder of its own, into a texture of its own.
+//! Frames on an engine's device, with its encoder, into its texture.
 
 use crate::render::compare::assert_identical;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
@@ -16,8 +16,8 @@ fn scene(lights: u8) -> Scene {
     let mut scene = Scene::seen_from(Vec3::new(0.0, 3.0, 6.0), Vec3::ZERO).ambient(0.1);
     scene.camera.encoding = Encoding::Raw;
     scene = scene
-        .with(Thing::new(Plane { size: 9.0, divisions: 64 }).of(other_material()))
-        .with(Thing::new(UvSphere::new(0.8, 24, 12)).of(material()))
+        .with(Thing::new(Plane { size: 9.0, divisions: 64 }).with_material(other_material()))
+        .with(Thing::new(UvSphere::new(0.8, 24, 12)).with_material(material()))
         .with(Thing::new(Cuboid::default()).at(Transform::from_xyz(1.5, 0.5, 0.0)).shaded(Shading::Flat))
         .lit(Lamp::directional(directional_light(), Vec3::new(-0.4, -0.5, -1.0)));
     for i in 0..lights {
@@ -130,7 +130,7 @@ fn a_plain_device_uses_fallbacks() {
     assert!(matches!(errors.as_slice(), [RenderError::FloatTarget { .. }]), "{errors:?}");
     // Without it, and with one sample, they are drawn to the bit.
     assert_identical("opaque", &own.draw(&scene(2)), &stage.draw(&scene(2)));
-    // Opaque objects need no blending, so that 32 bits will do for a texture of the engine's.
+    // Opaque objects need no blending, so 32 bits suffice for the engine's texture.
     let (texture, target) = texture(&gpu, wgpu::TextureFormat::Rgba32Float);
     stage.world().insert_resource(target);
     stage.set(&scene(2));
@@ -187,7 +187,7 @@ fn an_unsuitable_texture_is_an_error() {
     assert!(matches!(&stage.frame().errors[..], [RenderError::BadTarget { reason, .. }] if reason.contains("size")));
 }
 
-/// The device's callbacks are the engine's, so that it hears of the loss by them; the frame says what it cannot do.
+/// The device's callbacks are the engine's, which learns of the loss through them; the frame reports an error.
 #[test]
 fn a_destroyed_engine_device_is_an_error_until_replaced() {
     for (lights, samples) in [(2, Samples::One), (20, Samples::Four)] {
@@ -217,7 +217,7 @@ fn a_destroyed_engine_device_is_an_error_until_replaced() {
     }
 }
 
-/// In a process of its own, where Mesa's OpenGL says that it is 3.3, as NVIDIA's does.
+/// Runs in a process of its own, where Mesa's OpenGL reports version 3.3, as NVIDIA's does.
 #[cfg(target_os = "linux")]
 #[test]
 fn an_engine_s_device_of_too_old_opengl_says_so_in_each_frame() {
@@ -238,7 +238,7 @@ fn an_engine_s_device_of_too_old_opengl_says_so_in_each_frame() {
 fn is_told_of_old_opengl() {
     let mut wanted = wgpu::InstanceDescriptor::new_without_display_handle();
     wanted.backends = wgpu::Backends::GL;
-    // With what wgpu looks over by default the device is lost as it is opened.
+    // With wgpu's default validation the device is lost when it is opened.
     wanted.flags = wgpu::InstanceFlags::empty();
     let instance = wgpu::Instance::new(wanted);
     let found = block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));

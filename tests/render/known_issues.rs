@@ -1,5 +1,5 @@
-//! Known issues. Each test asserts what happens now, and fails when that is mended: then its case moves to
-//! where the right behaviour is tested.
+//! Known issues. Each test asserts the present behaviour and fails once that is fixed: then its case moves to the tests
+//! of the right behaviour.
 
 use crate::render::scene::{Scene, Thing, glowing};
 use crate::render::stage::Stage;
@@ -8,7 +8,7 @@ use halfway::prelude::*;
 /// A floor of edge 1, seen from above its middle at a share of its size, looking down at it.
 fn low_over_a_floor(height: f32, turn: f32) -> Scene {
     let eye = Vec3::new(0.31 * height, height, 0.2 * height);
-    let floor = Thing::new(Plane { size: 1.0, divisions: 1 }).of(glowing(1.0, 1.0, 1.0));
+    let floor = Thing::new(Plane { size: 1.0, divisions: 1 }).with_material(glowing(1.0, 1.0, 1.0));
     let mut scene = Scene::seen_from(eye, eye + Vec3::new(0.4, -0.5, -1.0)).with(floor);
     for transform in [&mut scene.eye, &mut scene.things[0].frames[0]] {
         *transform =

@@ -1,4 +1,4 @@
-//! Images on objects: what they do is what the oracle says, and what does not have them pays nothing for them.
+//! Images on objects match the oracle, and objects without them do not pay for them.
 
 use crate::render::compare::{FLOAT, Failures, judge};
 use crate::render::conformance::maps::{SHAPED, map};
@@ -76,8 +76,8 @@ fn another_filter_placement_or_image_is_found() {
     }
 }
 
-/// Nothing is drawn of a ball around the camera, so that no pipeline reads its image, or solid; what is drawn after it
-/// reads the other.
+/// A ball around the camera is culled, so that no pipeline reads its image, or solid; the object after it reads the
+/// other.
 #[test]
 fn objects_after_a_culled_textured_one_are_drawn() {
     let (mut stage, mut failures) = (Stage::new(64, 48), Failures::default());
@@ -142,9 +142,9 @@ fn wave(u: f32, v: f32) -> f32 {
 
 #[test]
 fn a_displaced_mesh_converges_to_the_bumped_plane() {
-    // Seen from far above, so that what is raised hardly moves; within the rim, where normals are one-sided.
+    // From far above, so that raised points hardly move; within the rim, where normals are one-sided.
     let seen = |mesh: Mesh, maps: Vec<(MapKind, Map)>| {
-        let thing = Thing { maps, ..Thing::new(mesh) }.of(Material::matte(LinearRgba::WHITE));
+        let thing = Thing { maps, ..Thing::new(mesh) }.with_material(Material::matte(LinearRgba::WHITE));
         let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::white() };
         let mut scene = Scene::in_eye_space().with(thing).lit(Lamp::directional(light, Vec3::new(-0.6, -1.0, -0.4)));
         scene.eye = Transform::from_xyz(0.0, 60.0, 0.0).looking_at(Vec3::ZERO, Vec3::NEG_Z);
@@ -193,7 +193,9 @@ fn mapped_normals_follow_mirrored_coordinates() {
         for (scale, mirror) in [(1.0, 1.0), (1.0, -1.0), (0.5, 1.0)] {
             let map = Map { amount: scale, ..Map::new(even.clone()) };
             let mut thing = Thing { maps: vec![(MapKind::Normal, map)], ..Thing::new(mesh.clone()) };
-            thing = thing.of(Material::matte(LinearRgba::WHITE)).at(Transform::from_scale(Vec3::new(mirror, 1.0, 1.0)));
+            thing = thing
+                .with_material(Material::matte(LinearRgba::WHITE))
+                .at(Transform::from_scale(Vec3::new(mirror, 1.0, 1.0)));
             let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::white() };
             let mut scene = Scene::seen_from(Vec3::new(0.0, 0.0, 3.0), Vec3::ZERO).with(thing);
             scene = scene.lit(Lamp::directional(light, -to_light));
@@ -237,7 +239,7 @@ fn bumpy(far_normals: FarNormals, reflectance: Reflectance, along: f32) -> Scene
     })
 }
 
-/// The same of furrows, the heights of which change along `across` alone, by columns and rows.
+/// The same with furrows, whose heights change along `across` alone, by columns and rows.
 fn furrowed(far_normals: FarNormals, reflectance: Reflectance, across: [f64; 2]) -> Scene {
     let [columns, rows] = across;
     bumpy_by(far_normals, reflectance, 0.0, |x, y| {
@@ -247,7 +249,7 @@ fn furrowed(far_normals: FarNormals, reflectance: Reflectance, across: [f64; 2])
     })
 }
 
-/// The same of heights by column and row of 512.
+/// The same with heights by column and row of 512.
 fn bumpy_by(far_normals: FarNormals, reflectance: Reflectance, along: f32, wave: impl Fn(f64, f64) -> f64) -> Scene {
     const SIDE: u32 = 512;
     let wave = |x: u32, y: u32| wave(x.into(), y.into());
@@ -262,7 +264,8 @@ fn bumpy_by(far_normals: FarNormals, reflectance: Reflectance, along: f32, wave:
         ..Material::default()
     };
     let moved = Transform::from_xyz(along * 4.0 / 64.0, 0.0, 0.0);
-    let thing = Thing { maps, ..Thing::new(Mesh::from(Plane { size: 4.0, divisions: 1 })) }.of(shiny).at(moved);
+    let thing =
+        Thing { maps, ..Thing::new(Mesh::from(Plane { size: 4.0, divisions: 1 })) }.with_material(shiny).at(moved);
     let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::white() };
     let mut scene = Scene::in_eye_space().with(thing).lit(Lamp::directional(light, Vec3::new(-0.15, -1.0, -0.1)));
     scene.eye = Transform::from_xyz(0.0, 6.0, 0.0).looking_at(Vec3::ZERO, Vec3::NEG_Z);
@@ -323,8 +326,7 @@ fn highlights_of_furrows_are_streaks_by_moments() {
 #[test]
 fn toksvig_and_lean_reduce_shimmer_of_moving_bumps() {
     let mut stage = Stage::new(64, 48);
-    // Moved by a whole pixel and more, in thirds; what a pixel shows of a plane without an end should stay about the
-    // same.
+    // Moved by a whole pixel and more, in thirds; the pixels of an infinite plane should stay about the same.
     let mut shimmer = |far: FarNormals| {
         let frames: Vec<Vec<f64>> =
             (0..10).map(|k| reduced(&stage.draw(&bumpy(far, Reflectance::BlinnPhong, k as f32 / 3.0)), 1)).collect();
@@ -355,7 +357,7 @@ fn far_normals_cost_nothing_unused_and_are_missed_if_absent() {
     }
 }
 
-/// Two images of the size of one in place of it, where moments are read; on the CPU nothing is sent.
+/// Two images replace one of the same size where moments are read; on the CPU nothing is uploaded.
 #[test]
 fn moments_are_uploaded_only_for_lean() {
     let mut stage = Stage::new(64, 48);
@@ -363,7 +365,7 @@ fn moments_are_uploaded_only_for_lean() {
         stage.set(&bumpy(far, Reflectance::BlinnPhong, 0.0));
         stage.frame().bytes_uploaded
     };
-    // The first frame sends what all share.
+    // The first frame uploads the shared data.
     bytes(FarNormals::Mean);
     let [mean, toksvig, lean] = FarNormals::ALL.map(&mut bytes);
     let image: u64 = (0..10).map(|level| 16 * (512_u64 >> level).pow(2)).sum();
@@ -385,7 +387,7 @@ fn another_footprint_filter_is_found() {
         stage.set(&with(right));
         stage.frame();
         for (drawn, picture) in &pictures {
-            // Also by what a grid of 1/16 pixel is allowed in the conformance suite.
+            // Also with the allowance for a grid of 1/16 pixel in the conformance suite.
             let (verdict, _) = judge(&mut stage, picture, FLOAT.within(2.0).until_wrong());
             // Where no footprint is longer than 8 to 1, both are all probes of the longest.
             let more = [LevelFilter::Anisotropic8, LevelFilter::Anisotropic16];
@@ -395,8 +397,8 @@ fn another_footprint_filter_is_found() {
     }
 }
 
-/// A table of sums is kept per image and form: an object's other filter does not get it, and where one did it would be
-/// found. Squares and not spheres: small triangles on a grid of 1/16 pixel are seen by other footprints.
+/// A table of sums is cached per image and form: an object with another filter does not get it; if it did, this test
+/// would fail. Squares and not spheres: small triangles on a grid of 1/16 pixel have other footprints.
 #[test]
 fn one_image_is_drawn_by_each_filter_at_once_as_by_itself() {
     let mut stage = Stage::new(64, 48);
@@ -430,7 +432,7 @@ fn one_image_is_drawn_by_each_filter_at_once_as_by_itself() {
     }
 }
 
-/// Means of a few texels far from where the sums begin: sums in f32 alone lose them
+/// Means of a few texels far from the origin of the sums: sums in f32 alone lose them
 /// (`sums_in_single_precision_are_too_coarse`).
 #[test]
 fn sums_of_a_large_image_tell_two_texels_apart() {
@@ -441,7 +443,8 @@ fn sums_of_a_large_image_tell_two_texels_apart() {
     let map = Map { sampling, transform, ..Map::new(image) };
     let thing = Thing { maps: vec![(MapKind::Color, map)], ..Thing::new(Plane { size: 2.0, divisions: 1 }) };
     let mut scene = Scene::seen_from(Vec3::new(0.0, 1.9, 0.4), Vec3::ZERO).ambient(1.0);
-    scene.things = vec![thing.of(Material { ambient: LinearRgba::WHITE, ..Material::matte(LinearRgba::WHITE) })];
+    scene.things =
+        vec![thing.with_material(Material { ambient: LinearRgba::WHITE, ..Material::matte(LinearRgba::WHITE) })];
     let mut stage = Stage::new(64, 48);
     stage.set(&scene);
     stage.frame();
@@ -451,7 +454,7 @@ fn sums_of_a_large_image_tell_two_texels_apart() {
     println!("{verdict}");
 }
 
-/// Sums of such texels are beyond all numbers of single precision, and the difference of two sums is no number.
+/// Sums of such texels overflow single precision, and the difference of two sums is NaN.
 #[test]
 fn the_largest_texels_end_in_a_picture() {
     let mut stage = Stage::new(64, 48);

@@ -1,4 +1,4 @@
-//! The renderer in Apps of other shapes than the facade's.
+//! The renderer in Apps built differently from the facade's.
 
 use crate::render::compare::assert_identical;
 use crate::render::scene::{Lamp, Scene, Thing, point_light};
@@ -226,7 +226,7 @@ fn a_finished_app_draws_the_same() {
     assert_identical("finished", &expected(), &float(&mut app));
 }
 
-/// A schedule that the App knows nothing of.
+/// A schedule that the App does not run by itself.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 struct Paint;
 

@@ -1,4 +1,4 @@
-//! Terms shaded at different frequencies, and the pure cases that have names of their own.
+//! Terms shaded at different frequencies, and the pure cases: flat, Gouraud and Phong.
 
 use crate::render::compare::{FLOAT, Failures, assert_as_expected, assert_identical, difference};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light};
@@ -72,7 +72,7 @@ fn pure_frequencies_are_the_shadings_to_the_bit() {
             let mut scene = coarse_sphere();
             scene.things[0] = scene.things[0].clone().faces(faces);
             let mut with_terms = scene.clone();
-            // The shading that `Terms` overrules is the other one.
+            // `Terms` overrides another shading.
             with_terms.things[0] = scene.things[0].clone().terms(frequency, frequency).shaded(other);
             scene.things[0].shading = Some(shading);
             let row = format!("{frequency:?} is {shading:?}, {faces:?} faces");

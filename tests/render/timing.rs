@@ -1,5 +1,5 @@
-//! Where the time of a frame goes, by the renderer's own clocks. No test depends on how fast the machine is: times are
-//! compared with each other, with the test's own clock around them, or with what a system slept.
+//! The times of a frame, by the renderer's own clocks. No test depends on the machine's speed: times are compared with
+//! each other, with the test's own clock around them, or with the time that a system slept.
 
 use crate::render::compare::assert_identical;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light};
@@ -140,7 +140,7 @@ fn frames_that_nobody_waits_for_are_timed_too() {
     for _ in 0..200 {
         stage.frame();
     }
-    // Whatever is still under way arrives with this one.
+    // Pending times arrive with this frame.
     stage.float();
     let errors = &stage.frame().errors;
     assert!(errors.is_empty(), "{errors:?}");

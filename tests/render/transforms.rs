@@ -82,7 +82,7 @@ fn a_mirrored_sphere_looks_like_itself() {
 
 #[test]
 fn a_flattened_sphere_is_a_disc_that_faces_one_way() {
-    // Half of the sphere winds counter-clockwise on either side of the disc, whichever way rounding turns the
+    // Half of the sphere winds counter-clockwise on either side of the disc, whichever sign rounding gives the
     // determinant, which is 0.
     let turn = rotated(0.9, 0.4, 0.7);
     let rows: [(&str, Vec<Transform>); 7] = [
@@ -271,7 +271,7 @@ fn lights_in_a_hierarchy_move_with_their_parents() {
 
 #[test]
 fn moving_the_camera_and_the_world_together_changes_nothing() {
-    // Shading is of relative places: the camera's turn must cancel. f32 transforms leave some 1e-6 of it.
+    // Shading depends on relative positions: the camera's rotation must cancel. f32 transforms leave some 1e-6 of it.
     let scene = |turn: Quat| {
         let moved = |t: Transform| Transform::from_rotation(turn) * t;
         let mut scene = around_origin().with(Thing::square(Vec3::ZERO, Vec3::new(0.1, 1.0, 0.4), 9.0));

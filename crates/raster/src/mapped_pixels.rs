@@ -145,7 +145,7 @@ impl MappedPixel<'_> {
         let turned = if state.reflectance == Reflectance::Phong { 2.0 * data.amount } else { data.amount };
         if call.far_normals == FarNormals::Lean {
             let OnImage { uv, footprint } = self.on_image(call);
-            let seen = SlopeSpread::seen(&data.pyramid, &call.sampling, uv, footprint);
+            let seen = SlopeSpread::filtered(&data.pyramid, &call.sampling, uv, footprint);
             let roughness = Roughness::Covariance(seen.covariance(turned));
             return Some(SeenNormals { texel: seen.texel(), amount: data.amount, roughness });
         }

@@ -100,7 +100,7 @@ impl BenchShading {
         self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
 
-    /// The tolerance of its pictures, where `said` is that of the command line.
+    /// The tolerance of its pictures; `said` is that of the command line.
     pub(super) fn tolerance(self, said: Tolerance) -> Tolerance {
         if self == Self::ExactPhong { Tolerance::EXACT } else { said }
     }

@@ -26,8 +26,8 @@ fn last_words(viewer: &mut Viewer) -> (Option<i32>, String) {
     (code, said)
 }
 
-/// Has `view` drawn by the adapter that is tested and by the CPU, several times, each a little longer after the first
-/// picture, and hands it over.
+/// Runs `view` on the tested adapter and on the CPU, several times, and calls a function with each, a little later
+/// after the first picture each time.
 fn each_a_little_later(screen: impl Fn() -> Screen, mut take_away: impl FnMut(&Screen, Viewer)) {
     for adapter in [None, Some("cpu")] {
         for milliseconds in [0, 3, 7, 240, 490] {
@@ -105,7 +105,7 @@ fn a_destroyed_window_ends_the_app() {
     each_a_little_later(Screen::open, |screen, mut viewer| {
         screen.destroy(viewer.window);
         let (code, said) = last_words(&mut viewer);
-        // Its surface may be found lost before the display has told of the window.
+        // The loss of its surface may be detected before the display reports that of the window.
         let is_told = code == Some(1) && said.lines().count() == 1;
         assert!((code, said.as_str()) == (Some(0), "") || is_told, "{code:?}: {said}");
     });

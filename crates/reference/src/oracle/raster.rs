@@ -1,8 +1,8 @@
-//! Which points of the picture a triangle covers, and in which tiles to look for it.
+//! The points of the picture that a triangle covers, and the tiles that it reaches.
 
 use bevy_math::{DVec2, DVec3};
 
-use super::gather::OracleScene;
+use super::scene::OracleScene;
 
 /// A point of an object that a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,12 +11,12 @@ pub(super) struct Hit {
     pub(super) solid: usize,
     /// Distance along the view.
     pub(super) depth: f64,
-    /// Whether the front is seen.
+    /// Whether the front is hit.
     pub(super) front: bool,
     pub(super) place: HitPoint,
 }
 
-/// Where on an object a hit lies.
+/// The position of a hit on its object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum HitPoint {
     /// On a triangle, by the weights of its corners: barycentric in space, which is perspective-correct on the picture.
@@ -26,7 +26,7 @@ pub(super) enum HitPoint {
 }
 
 impl Hit {
-    /// The triangle and the weights of its corners, unless it is the surface itself that was met.
+    /// The triangle and the weights of its corners, unless the hit is on the surface itself.
     pub(super) fn on_triangle(&self) -> Option<(u32, [f64; 3])> {
         match self.place {
             HitPoint::Triangle(triangle, weights) => Some((triangle, weights)),
@@ -44,7 +44,7 @@ pub(super) struct Primitive {
     pub(super) high: DVec2,
 }
 
-/// The picture cut into squares, and what each of them may show, in the order in which it is drawn.
+/// The picture cut into squares, and the primitives that each of them may show, in drawing order.
 #[derive(Clone, Debug)]
 pub(super) struct Tiles {
     pub(super) primitives: Vec<Primitive>,
@@ -56,7 +56,7 @@ pub(super) struct Tiles {
 /// The edge of a tile in pixels.
 pub(super) const TILE: u32 = 32;
 
-/// Boxes are widened by this many pixels, so that no rounding puts what is covered outside them.
+/// Boxes are widened by this many pixels, so that they hold all covered points despite rounding.
 const MARGIN: f64 = 1e-3;
 
 impl Tiles {
@@ -108,12 +108,12 @@ impl Tiles {
         self.lists[tile].iter().map(|&number| &self.primitives[number as usize])
     }
 
-    /// What may be seen at a point of the picture.
+    /// The primitives that may be visible at a point of the picture.
     pub(super) fn at(&self, x: f64, y: f64) -> impl Iterator<Item = &Primitive> {
         self.of_tile(self.tile(DVec2::new(x, y)))
     }
 
-    /// What may be seen between the corners of a box that is smaller than a tile.
+    /// The primitives that may be visible in a box that is smaller than a tile.
     pub(super) fn within(&self, low: DVec2, high: DVec2) -> Vec<&Primitive> {
         let mut tiles =
             [low, DVec2::new(high.x, low.y), DVec2::new(low.x, high.y), high].map(|p| self.tile(p)).to_vec();
@@ -123,7 +123,7 @@ impl Tiles {
             let primitive = &self.primitives[*number as usize];
             primitive.low.cmple(high).all() && primitive.high.cmpge(low).all()
         });
-        // In the order of drawing, each once.
+        // In drawing order, each once.
         numbers.sort_unstable();
         numbers.dedup();
         numbers.into_iter().map(|number| &self.primitives[number as usize]).collect()
@@ -171,8 +171,8 @@ pub(super) struct RayTriangle {
     normals: [DVec3; 3],
 }
 
-/// Where a ray meets a triangle.
-pub(super) struct Met {
+/// The intersection of a ray and a triangle.
+pub(super) struct Intersection {
     pub(super) weights: [f64; 3],
     pub(super) depth: f64,
     /// Whether the triangle winds counter-clockwise as seen.
@@ -185,13 +185,13 @@ impl RayTriangle {
         Self { corners, normals: [b.cross(c), c.cross(a), a.cross(b)] }
     }
 
-    /// Where the line along `ray` meets the triangle, before the eye or behind it.
+    /// The intersection of the line along `ray` with the triangle, before the eye or behind it.
     ///
     /// The edge functions are the volumes of the tetrahedra of the eye, the ray and each edge (homogeneous
     /// rasterisation, Olano and Greer 1997): they need no clipping, and are proportional to the weights. A ray through
     /// an edge belongs to the triangle that it enters when it is moved right by less than anything, or else down: the
     /// top-left rule.
-    pub(super) fn meet(&self, ray: DVec3) -> Option<Met> {
+    pub(super) fn intersect(&self, ray: DVec3) -> Option<Intersection> {
         let volumes = self.normals.map(|n| n.dot(ray));
         let inside = |i: usize| {
             let (n, volume) = (self.normals[i], volumes[i]);
@@ -205,7 +205,7 @@ impl RayTriangle {
         let weights = volumes.map(|volume| volume / sum);
         let depth = -(0..3).map(|i| weights[i] * self.corners[i].z).sum::<f64>();
         // The sum is ray · (b − a)×(c − a).
-        Some(Met { weights, depth, counter_clockwise: sum < 0.0 })
+        Some(Intersection { weights, depth, counter_clockwise: sum < 0.0 })
     }
 }
 
@@ -227,20 +227,20 @@ impl OracleScene {
         !self.solids[primitive.solid].triangle(primitive.index).iter().all(is_there)
     }
 
-    /// What meets rays for a triangle: its hit where a side that is shown lies beyond the near plane.
+    /// A function that intersects rays with a triangle: it gives a hit if a drawn side lies beyond the near plane.
     pub(super) fn triangle(&self, primitive: &Primitive) -> impl Fn(DVec3) -> Option<Hit> {
         let &Primitive { solid: number, index, .. } = primitive;
         let solid = &self.solids[number];
         let edges = RayTriangle::new(solid.triangle(index));
         move |ray| {
-            let Met { weights, depth, counter_clockwise } = edges.meet(ray)?;
+            let Intersection { weights, depth, counter_clockwise } = edges.intersect(ray)?;
             let front = counter_clockwise != solid.mirrored;
-            let seen = depth >= self.view.near && solid.side(front).shown;
-            seen.then_some(Hit { solid: number, depth, front, place: HitPoint::Triangle(index, weights) })
+            let visible = depth >= self.view.near && solid.side(front).shown;
+            visible.then_some(Hit { solid: number, depth, front, place: HitPoint::Triangle(index, weights) })
         }
     }
 
-    /// The hits of a ray on the pieces of one object's surface, where a side that is shown lies beyond the near plane.
+    /// The hits of a ray on the pieces of one object's surface, if a drawn side lies beyond the near plane.
     pub(super) fn pieces<'a>(
         &self,
         number: usize,
@@ -263,8 +263,8 @@ impl OracleScene {
             let depth = met.t;
             let n = solid.turned(met.normal);
             let front = n.dot(ray) < 0.0;
-            let seen = depth >= self.view.near && solid.side(front).shown;
-            seen.then_some(Hit { solid: number, depth, front, place: HitPoint::Surface { p: ray * depth, n } })
+            let visible = depth >= self.view.near && solid.side(front).shown;
+            visible.then_some(Hit { solid: number, depth, front, place: HitPoint::Surface { p: ray * depth, n } })
         })
     }
 }

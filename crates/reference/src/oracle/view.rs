@@ -7,7 +7,7 @@ use halfway_lighting::equations::Transcendental;
 
 use super::grid::VertexGrid;
 
-/// Where the picture is seen from, and where a point of eye space lies on it.
+/// The position and direction of the camera, and the projection of eye space onto the picture.
 ///
 /// Eye space is right-handed and has world units: the eye at the origin, looking along −Z. Depth is the distance along
 /// the view, −z.
@@ -45,7 +45,7 @@ impl PictureView {
     pub(super) fn eye_from_model(&self, world_from_model: &DAffine3) -> DAffine3 {
         DAffine3 {
             matrix3: self.eye_from_world * world_from_model.matrix3,
-            // The difference first: both are world-sized, and what is seen is near the eye.
+            // Subtract first: both are world-sized, and visible objects are near the eye.
             translation: self.eye_from_world * (world_from_model.translation - self.position),
         }
     }
@@ -91,7 +91,7 @@ impl PictureView {
         let pixel = grid.place(exact);
         let at_depth_1 = 2.0 * pixel / self.size - 1.0;
         let on_grid = DVec2::new(at_depth_1.x, -at_depth_1.y) * self.half * -p.z;
-        // What lies in the plane of the eye lies nowhere on the picture.
+        // A point in the plane of the eye has no projection.
         if on_grid.is_finite() { (on_grid.extend(p.z), grid.is_tie(exact, self.size)) } else { (p, false) }
     }
 

@@ -1,4 +1,4 @@
-//! What keeps a scene from being drawn, and what it says.
+//! The errors of scenes that cannot be drawn, and their messages.
 
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;

@@ -118,8 +118,8 @@ fn a_fine_grid_is_judged_by_either_rule_too() {
     }
 }
 
-/// Corners just in the middle between two places of a grid of sixteenths go to either, each by itself; those that are a
-/// hundredth of a pixel beside it do not, and no corner goes places farther.
+/// A corner in the middle between two points of a grid of sixteenths may snap to either, independently of others; one a
+/// hundredth of a pixel beside the middle may not, and no corner snaps farther away.
 #[test]
 fn ties_go_to_either_side() {
     // Pixels are 1/8 of a unit, and half a place 1/256. One corner at a time is moved by some places from the lower
@@ -149,8 +149,8 @@ fn ties_go_to_either_side() {
     }
 }
 
-/// Some drawers cut triangles at the sides of the picture, and put the corners that this makes on the grid as well: an
-/// edge then leads through other places of it than its ends are at, and the two triangles on it are interpolated as
+/// Some renderers clip triangles at the sides of the picture and snap the new corners to the grid as well: an edge then
+/// passes through other grid points than its unclipped ends do, while the two triangles on it are interpolated as
 /// before.
 #[test]
 fn edges_of_cut_triangles_may_lead_through_other_places() {
@@ -175,7 +175,7 @@ fn edges_of_cut_triangles_may_lead_through_other_places() {
         add([ends[0], ends[1], [8.0, 20.0 - third[1]]], [0.7; 3], of_flat);
         let exact = stage.oracle(16, 16);
         let picture = stage.oracle(16, 16).on_grid(4).draw();
-        // What the slope shows there, within its edge or beyond.
+        // The slope's colour there, within its edge or beyond.
         let [a, b, c] = slope.map(|corner| corner.map(|along| (f64::from(along) * 16.0).round() / 16.0));
         let area =
             |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);

@@ -98,7 +98,7 @@ fn nothing_shows_through_a_closed_mesh() {
     let oracle = stage.oracle(64, 64);
     let mut inside = 0;
     for (x, y) in (0..64).flat_map(|y| (0..64).map(move |x| (x, y))) {
-        let at = |i: u32, j: u32| oracle.seen(f64::from(x) + f64::from(i) / 4.0, f64::from(y) + f64::from(j) / 4.0);
+        let at = |i: u32, j: u32| oracle.probe(f64::from(x) + f64::from(i) / 4.0, f64::from(y) + f64::from(j) / 4.0);
         let corners = (0..5).flat_map(|j| (0..5).map(move |i| (i, j)));
         let objects: Vec<_> = corners.map(|(i, j)| at(i, j).nearest.expect("the wall is behind").object).collect();
         let found = oracle.possible(x, y, RADIUS);

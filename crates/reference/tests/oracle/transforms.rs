@@ -81,7 +81,7 @@ fn sheared_normals_use_the_inverse_transpose() {
     let corners = [Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, -1.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
     for mirror in [1.0, -1.0] {
         let m = shear * Mat3::from_diagonal(Vec3::new(mirror, 1.0, 1.0));
-        // What a transform does to a plane, it does to three of its points.
+        // A transform maps a plane as it maps three of its points.
         let [a, b, c] = corners.map(|corner| (m * corner).as_dvec3());
         let n = (b - a).cross(c - a).normalize() * f64::from(mirror);
         let toward = DVec3::new(0.6, 0.0, 0.8);

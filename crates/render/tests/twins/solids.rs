@@ -39,7 +39,7 @@ const FAULTS: [(&str, &str, &str); 25] = [
     ("fractal", "min(octaves, MOST_OCTAVES)", "min(octaves, 8u)"),
     ("fractal", "f32(octave) * 0.37", "f32(octave) * 0.3701"),
     ("fractal", "amplitude *= 0.5", "amplitude *= 0.5001"),
-    ("fractal", "weight = left(frequency * abs(width))", "weight = left(0.5 * frequency * abs(width))"),
+    ("fractal", "weight = fade(frequency * abs(width))", "weight = fade(0.5 * frequency * abs(width))"),
     ("sine_of_turns", "abs(x) <= 0.25", "abs(x) <= 0.4"),
     ("sine_of_turns", "1.0 / 362880.0 - z", "1.0 / 362880.0 + z"),
     ("wave", "w >= 1.0", "w >= 2.0"),

@@ -39,7 +39,7 @@ pub(crate) struct Import {
     /// The name that it has here; none for `*`.
     pub(crate) name: Option<String>,
     pub(crate) path: Vec<String>,
-    /// Others can import it from here.
+    /// Whether it is re-exported.
     pub(crate) handed_on: bool,
 }
 

@@ -6,7 +6,7 @@ use crate::cargo::{cargo, duration, printed, root, step};
 use crate::checks::{circles, doors};
 use crate::failure::{Failure, Result};
 
-/// Run the checks that must pass before a change goes in; all of them run, whichever fails
+/// Run the checks that must pass before a change is merged; all of them run, even if one fails
 #[derive(Args, Debug)]
 pub(crate) struct Options {
     /// Only these; all where none is named
@@ -30,7 +30,7 @@ enum Check {
     Smallest,
 }
 
-/// Runs the checks, and then says which failed.
+/// Runs the checks, and then lists those that failed.
 pub(crate) fn run(options: &Options) -> Result {
     let all = Check::value_variants();
     let chosen = if options.checks.is_empty() { all } else { &options.checks };
@@ -95,7 +95,7 @@ impl Check {
     }
 }
 
-/// Expects nothing of graphics drivers or windows in the library without its features.
+/// Checks that the library without its features depends on no crate for graphics drivers or windows.
 fn without_wgpu(root: &std::path::Path) -> Result {
     std::fs::create_dir_all(root.join("out")).map_err(|error| Failure::new(format!("out: {error}")))?;
     let tree = ["tree", "-p", "halfway", "--no-default-features", "-e", "normal", "--prefix", "none"];

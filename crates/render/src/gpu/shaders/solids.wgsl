@@ -42,7 +42,7 @@ fn gradient_noise(p: vec3f) -> f32 {
 }
 
 // How much is left of noise that is seen by parts so wide.
-fn left(width: f32) -> f32 {
+fn fade(width: f32) -> f32 {
     let t = clamp((width - 0.25) * 2.0, 0.0, 1.0);
     return 1.0 - t * t * (3.0 - 2.0 * t);
 }
@@ -54,13 +54,13 @@ fn fractal(p: vec3f, octaves: u32, width: f32) -> f32 {
     var frequency = 1.0;
     var amplitude = 1.0;
     var octave = 0u;
-    var weight = left(abs(width));
+    var weight = fade(abs(width));
     while select(0.0, weight, octave < count) > 0.0 {
         sum += weight * amplitude * gradient_noise(p * frequency + f32(octave) * 0.37);
         octave += 1u;
         frequency *= 2.0;
         amplitude *= 0.5;
-        weight = left(frequency * abs(width));
+        weight = fade(frequency * abs(width));
     }
     return sum;
 }
@@ -87,7 +87,7 @@ fn marble(p: vec3f, octaves: u32, width: f32) -> f32 {
 }
 
 fn wood(p: vec3f, width: f32) -> f32 {
-    let grain = 0.3 * left(abs(width)) * gradient_noise(vec3f(p.x, 0.1 * p.y, p.z));
+    let grain = 0.3 * fade(abs(width)) * gradient_noise(vec3f(p.x, 0.1 * p.y, p.z));
     return wave(sqrt(p.x * p.x + p.z * p.z) + grain, width);
 }
 
