@@ -38,7 +38,7 @@ fn blended_objects_are_drawn_back_to_front() {
 #[test]
 fn without_blend_opacity_does_nothing() {
     let mut stage = Stage::new();
-    stage.add(wall(9.0, 2.0), Material { opacity: 0.25, ..of(RED) });
+    stage.add(wall(9.0, 2.0), Material { opacity: 0.25, ..glowing(RED) });
     assert_close("opaque", middle(&mut stage), [1.0, 0.0, 0.0]);
 }
 
@@ -109,7 +109,7 @@ fn within_a_mesh_the_first_triangle_stays() {
 #[test]
 fn a_two_sided_blended_object_draws_its_far_side_first() {
     let mut stage = Stage::new();
-    let back = BackMaterial(Material { opacity: 0.25, ..of(GREEN) });
+    let back = BackMaterial(Material { opacity: 0.25, ..glowing(GREEN) });
     let at = GlobalTransform::from_xyz(0.0, 0.0, -3.0);
     stage.add_at(Cuboid::new(1.0, 1.0, 1.0), at, (veil(glowing(RED), 0.5), back, Faces::Both));
     stage.add(wall(9.0, 5.0), glowing(BLUE));
