@@ -1,4 +1,4 @@
-//! Triangles that reach far beyond a tile, or behind the eye: few, and so one by one, in 64 bits.
+//! Triangles that reach far beyond a tile, or behind the eye. They are few, so they are clipped one by one, in 64 bits.
 
 use crate::cover::EdgeFunctions;
 use crate::placed::TILE;
@@ -8,20 +8,20 @@ use crate::triangle::Covering;
 use crate::vertices::{CLIPPED, GRID, SCREEN_HIGH, SCREEN_LOW, Screen, TOO_NEAR, Vertices};
 use halfway_lighting::record::Cull;
 
-/// A corner on the screen.
+/// A corner on the picture.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Corner {
     screen: [f32; 2],
     grid: [i32; 2],
-    /// By side, as in [`Vertices::lead`].
+    /// The leading numbers by side, as in [`Vertices::lead`].
     lead: [[f32; 4]; 2],
     second: [[f32; 4]; 2],
     paint: [f32; 4],
-    /// As a mean of the triangle's corners.
+    /// Its weights in the triangle's corners.
     weights: [f64; 3],
 }
 
-/// A triangle that is ready to be drawn.
+/// A triangle with its edges and planes.
 pub(crate) struct Ready {
     pub(crate) edges: EdgeFunctions,
     pub(crate) planes: Planes,
@@ -37,7 +37,7 @@ const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 /// A polygon gets a corner more from each plane that cuts it.
 const MOST_CORNERS: usize = 3 + 5;
 
-/// Hands out what is to be drawn of a triangle of a piece.
+/// Calls a function with each part of a clipped triangle.
 pub(crate) fn each_part(
     vertices: &Vertices,
     triangle: [u8; 3],
@@ -79,7 +79,7 @@ impl Corner {
         }
     }
 
-    /// A mean of a triangle's corners.
+    /// A weighted mean of a triangle's corners.
     fn between(vertices: &Vertices, numbers: [usize; 3], weights: [f64; 3], screen: &Screen) -> Self {
         if let Some(only) = weights.iter().position(|&weight| weight >= 1.0) {
             return Self::of(vertices, numbers[only], UNITS[only]);
@@ -124,7 +124,7 @@ impl Polygon {
         Self { corners, count: 3 }
     }
 
-    /// Cuts off what is beyond the planes that some corner is beyond (Sutherland, Hodgman 1974).
+    /// Clips at the planes that some corner is beyond (Sutherland, Hodgman 1974).
     fn clip(&mut self, vertices: &Vertices, numbers: [usize; 3], screen: &Screen, code: i32) {
         let eye = numbers.map(|v| [0, 1, 2].map(|axis| f64::from(vertices.eye[axis][v])));
         let near = f64::from(screen.near);
@@ -170,7 +170,7 @@ impl Polygon {
     }
 }
 
-/// Edges and planes of a triangle of any size; `None` where it does not show.
+/// Edges and planes of a triangle of any size; `None` if it is invisible.
 fn set_up(corners: &[Corner; 3], tile: [u32; 2], covering: &Covering) -> Option<Ready> {
     let first = tile.map(|place| i64::from(place) * (TILE as i64 * i64::from(GRID)) + i64::from(GRID / 2));
     let x = corners.each_ref().map(|corner| i64::from(corner.grid[0]) - first[0]);
@@ -212,7 +212,7 @@ fn edges(x: [i64; 3], y: [i64; 3], covering: &Covering) -> Option<EdgeFunctions>
         let at_first = bias - across * x[k] - down * y[k];
         for (value, [dx, dy]) in edges.at[k].iter_mut().zip(sample_offsets(covering.samples)) {
             let at = (at_first + across * i64::from(dx) + down * i64::from(dy)) >> 8;
-            // Beyond this no pixel of the tile changes the sign; and no sum leaves 32 bits.
+            // Beyond this no pixel of the tile changes the sign, and no sum overflows 32 bits.
             *value = at.clamp(-LARGEST_EDGE, LARGEST_EDGE) as i32;
         }
         edges.center[k] = (at_first >> 8).clamp(-LARGEST_EDGE, LARGEST_EDGE) as i32;

@@ -1,4 +1,4 @@
-//! Triangles behind those that a tile shows already, with one sample a pixel: they need not be lit, nor drawn.
+//! Occlusion culling within a tile, with one sample a pixel: triangles behind drawn ones are neither lit nor drawn.
 
 use crate::cover::{TINY_AT, TINY_PIXELS, TileBuffer};
 use crate::lanes::{Simd, counting_i, lanes, load, splat, splat_i};
@@ -9,8 +9,8 @@ use fearless_simd::prelude::*;
 const PIXELS: usize = TILE * TILE;
 
 impl TileBuffer {
-    /// Whether a triangle of few pixels, with one sample each, is nowhere nearer than what has been drawn: its 1/w is
-    /// at most `most`.
+    /// Whether a triangle of few pixels, with one sample each, is behind the drawn surfaces everywhere: its 1/w is at
+    /// most `most`.
     #[inline(always)]
     pub(crate) fn hides_tiny(&self, (pixels, first): (i32, [i32; 2]), most: f32) -> bool {
         let first = first[1] as usize * TILE + first[0] as usize;
@@ -26,7 +26,7 @@ impl TileBuffer {
         true
     }
 
-    /// Whether all of some columns and rows show something that is at least as near as this 1/w.
+    /// Whether all pixels of some columns and rows show a surface at least as near as this 1/w.
     #[inline(always)]
     pub(crate) fn hides<S: Simd>(&self, simd: S, first: [usize; 2], last: [usize; 2], nearest: f32) -> bool {
         let nearest = splat(simd, nearest);
@@ -82,7 +82,7 @@ mod tests {
                         }
                         let holds = [0, 1].iter().all(|&axis| (first[axis]..=last[axis]).contains(&hole[axis]));
                         assert_eq!(hides(&tile, first, last, NEAR, width), !holds, "{hole:?} in {first:?} to {last:?}");
-                        // Of equal depths the first drawn stays; what is nearer by any amount shows.
+                        // At equal depth the first drawn stays; anything nearer shows.
                         assert!(!hides(&tile, first, last, NEAR.next_up(), width));
                         assert!(hides(&tile, first, last, 1.0, width));
                     }

@@ -1,4 +1,4 @@
-//! Triangles of a piece that stand in lanes: those that are lit together.
+//! Triangles of a piece in the lanes of a vector, which are lit together.
 
 use crate::lanes::{F, MOST_LANES, Simd, lanes, store_fours};
 use crate::pieces::PIECE_TRIANGLES;
@@ -28,7 +28,7 @@ impl LaneTriangles {
     }
 }
 
-/// Puts numbers that stand in lanes where their triangles have their place.
+/// Scatters numbers from lanes to their triangles.
 #[inline(always)]
 pub(crate) fn spread<S: Simd>(numbers: [F<S>; 4], of: &LaneTriangles, to: &mut [[f32; 4]; PIECE_TRIANGLES]) {
     let mut fours = [[0.0; 4]; MOST_LANES];

@@ -1,5 +1,5 @@
-//! Highlights of points on vectors, by what a surface makes of them: round ones of one exponent for all points, or
-//! those of two axes, another at each point. Twins of `halfway_lighting::equations`, with their names.
+//! Highlights on vectors of points: round ones with one exponent for all points, or anisotropic ones with two axes at
+//! each point. Twins of `halfway_lighting::equations`, with their names.
 
 use crate::lanes::{F, Simd, V3, add, dot, each, fma, max, splat, splat3};
 use crate::power::{Exponent, Power};
@@ -17,7 +17,7 @@ pub(crate) trait PointLobe<S: Simd>: Copy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gloss {
     pub(crate) reflectance: Reflectance,
-    /// Of the material; Blinn–Phong takes it halved.
+    /// The material's exponent, halved for Blinn–Phong.
     pub(crate) exponent: Exponent,
 }
 
@@ -44,13 +44,13 @@ impl<S: Simd> PointLobe<S> for Gloss {
     }
 }
 
-/// Highlights that are not round, another at each point: see `axial_exponent` in the equations.
+/// Anisotropic highlights, different at each point: see `axial_exponent` in the equations.
 #[derive(Clone, Copy)]
 pub(crate) struct AxialGloss<S: Simd> {
     pub(crate) reflectance: Reflectance,
     axes: [V3<S>; 2],
     widths: V3<S>,
-    /// The exponent where the halfway direction is that of the normal.
+    /// The exponent if the halfway direction is that of the normal.
     pub(crate) otherwise: F<S>,
 }
 
@@ -143,7 +143,7 @@ mod tests {
         }
     }
 
-    /// Of two axes, of such as are turned, of none, of widths that would give exponents below 0, and toward the normal
+    /// Two axes, rotated axes, no axes, widths that would give exponents below 0, and a halfway vector along the normal
     /// itself.
     #[test]
     fn anisotropic_highlights_match_the_equations() {

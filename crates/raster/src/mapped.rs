@@ -1,5 +1,5 @@
-//! Triangles of draws with images, or of which a mask cuts something out. What they have is kept once a triangle and
-//! not once a pixel, so that other draws do not pay for it.
+//! Triangles of draws with images or a mask. Their data is stored once a triangle and not once a pixel, so that other
+//! draws do not pay for it.
 
 use crate::attributes::{FRAME, GROUPS, GROUPS_BUT_SOLID, OF_VERTICES, PARTS, PLACE};
 use crate::lane_triangles::{LaneTriangles, spread};
@@ -11,7 +11,7 @@ use crate::state::{Stage, State};
 use crate::vertices::Vertices;
 use halfway_lighting::record::MaterialRecord;
 
-/// I by what images multiply: the ambient, the diffuse and the specular part.
+/// The parts of I that images multiply separately: ambient, diffuse and specular.
 pub(crate) type PartsOf = [[f32; 3]; 3];
 
 /// Inputs of a triangle's pixels.
@@ -19,22 +19,21 @@ pub(crate) type PartsOf = [[f32; 3]; 3];
 pub(crate) struct MappedTriangle {
     /// How 1/w grows from pixel to pixel.
     pub(crate) inverse_w: [f32; 2],
-    /// Their base is at this pixel of the tile, the first that may be covered: far from it, what differs by little
-    /// between steep slopes would be lost to rounding.
+    /// Their base is the first pixel of the tile that may be covered: farther away, small differences between steep
+    /// slopes would be lost to rounding.
     pub(crate) groups: [Slopes; GROUPS],
     pub(crate) first: [f32; 2],
     /// Its own normal.
     pub(crate) face: [f32; 3],
-    /// Of flat ones the parts, and the opacity of the vertices.
+    /// For flat triangles the parts, and the opacity of the vertices.
     pub(crate) parts: PartsOf,
     pub(crate) alpha: f32,
-    /// And their color.
+    /// The color of the vertices.
     pub(crate) color: [f32; 3],
 }
 
 impl MappedTriangle {
-    /// One that lies near the tile, from the slopes of four numbers by their values at the corners, from the first
-    /// pixel on.
+    /// A triangle near the tile, from the slopes of four numbers by their values at the corners.
     #[inline(always)]
     pub(crate) fn small(
         vertices: &Vertices,
@@ -50,7 +49,7 @@ impl MappedTriangle {
         Self::with(&groups, first, planes)
     }
 
-    /// Any other, by the corners that it was cut to.
+    /// Any other triangle, by its clipped corners.
     pub(crate) fn large(
         vertices: &Vertices,
         (triangle, back): ([u8; 3], bool),
@@ -86,7 +85,7 @@ impl MappedTriangle {
     }
 }
 
-/// The groups that a state's triangles take.
+/// The groups that a state's triangles need.
 fn groups_of(state: &State) -> impl Iterator<Item = usize> + use<> {
     let (surrounded, solid) =
         state.maps.as_ref().map_or((false, false), |maps| (maps.surrounded, maps.solid.is_some()));
@@ -158,7 +157,7 @@ pub(crate) fn parts_of<S: Simd>(simd: S, terms: &Irradiance<S>, side: &MaterialR
     ]
 }
 
-/// Which groups a state's sides have of their own.
+/// Whether a group differs between a state's sides.
 fn is_of_side(state: &State, group: usize) -> bool {
     match state.stage {
         Stage::Vertex => (PARTS..PARTS + 3).contains(&group),

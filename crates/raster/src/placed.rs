@@ -1,4 +1,4 @@
-//! Where pieces of an instance lie: in which tiles, and whether all of their faces turn away.
+//! The pieces of an instance on the picture: the tiles that they may cover, and whether all of their faces turn away.
 
 use crate::pass::{DrawCall, Pass};
 use crate::pieces::{Piece, PieceExtent};
@@ -13,7 +13,7 @@ pub(crate) struct PlacedInstance {
     rows: [[f32; 4]; 3],
     /// An upper bound of how much it stretches lengths.
     stretch: f32,
-    /// 1 or −1, the side of a face's normal that is left out; 0 where that cannot be told for many faces at once.
+    /// 1 or −1, the side of a face's normal that is culled; 0 if whole pieces cannot be culled.
     left_out: f32,
     near: f32,
     scale: [f32; 2],
@@ -32,7 +32,7 @@ impl PlacedInstance {
         let even = right && xx.min(yy).min(zz) >= (1.0 - 1e-5) * largest;
         let stretch = if right { largest * (1.0 + 4e-6) } else { xx + yy + zz };
         let det = dot(x, [y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]]);
-        // The turned normal of a face is that of its front unless its winding is turned over, too.
+        // The transformed normal of a face is that of its front unless its winding is flipped, too.
         let side = if (det < 0.0) == draw.clockwise { 1.0 } else { -1.0 };
         let left_out = match draw.cull {
             Cull::None => 0.0,
@@ -53,7 +53,7 @@ impl PlacedInstance {
         self.rows.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3])
     }
 
-    /// Whether all faces of a piece show the side that is left out.
+    /// Whether all faces of a piece show the culled side.
     pub(crate) fn turns_away(&self, piece: &Piece) -> bool {
         let Some(cone) = piece.cone.filter(|_| self.left_out != 0.0) else { return false };
         let center = self.place(piece.extent.center);
@@ -61,16 +61,16 @@ impl PlacedInstance {
         let along = (axis[0] * center[0] + axis[1] * center[1] + axis[2] * center[2]) * self.left_out / self.stretch;
         let square = center[0] * center[0] + center[1] * center[1] + center[2] * center[2];
         let across = (square - along * along).max(0.0).sqrt();
-        // Over the sphere and the cone n·p is at least D·cos(γ + α) − r; where that is above 0 all faces turn away.
+        // Over the sphere and the cone n·p is at least D·cos(γ + α) − r; if that is above 0 all faces turn away.
         along * cone.cos - across * cone.sin > piece.extent.radius * self.stretch * 1.0001
     }
 
-    /// The tiles that points of an extent may be in; `None` where they are out of the picture.
+    /// The tiles that points of an extent may be in; `None` if they are outside the picture.
     pub(crate) fn tiles(&self, extent: &PieceExtent) -> Option<TileBox> {
         let [x, y, z] = self.place(extent.center);
         let radius = extent.radius * self.stretch * 1.0001;
-        // Along each axis of eye space the box or the sphere ends first. A flat box has no room for how vertices are
-        // rounded.
+        // Along each axis of eye space the smaller of the box and the sphere counts. A flat box needs a margin for the
+        // rounding of vertices.
         let reach = self.rows.map(|row| {
             let terms = [0, 1, 2].map(|k| (row[k].abs() * extent.half[k], row[k].abs() * extent.center[k].abs()));
             let of_box = terms[0].0 + terms[1].0 + terms[2].0;
@@ -90,7 +90,7 @@ impl PlacedInstance {
         Some(TileBox { tiles, is_inside })
     }
 
-    /// From where to where that reaches along an axis, as −1 to 1 over the picture.
+    /// The interval that it covers along an axis, as −1 to 1 over the picture.
     fn span(&self, axis: usize, offset: f32, reach: f32, depth: &Depth) -> Option<[f32; 2]> {
         let scale = self.scale[axis];
         let (nearest, farthest) = (depth.middle - depth.reach, depth.middle + depth.reach);
@@ -100,44 +100,44 @@ impl PlacedInstance {
             let high = scale * high / if high < 0.0 { farthest } else { nearest };
             return Some([low, high]);
         }
-        // It surrounds the eye, or nearly: only the side planes can leave it out.
+        // It contains the eye, or nearly: only the side planes can cull it.
         let beyond = scale * offset.abs() - depth.middle > depth.radius * (scale * scale + 1.0).sqrt() * 1.0001;
         (!beyond).then_some([f32::NEG_INFINITY, f32::INFINITY])
     }
 }
 
-/// Where an extent is on the picture.
+/// The position of an extent on the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TileBox {
     /// First and last column, first and last row of tiles.
     pub(crate) tiles: [u16; 4],
-    /// All of it is behind the near plane and inside the picture.
+    /// All of it is beyond the near plane and inside the picture.
     is_inside: bool,
 }
 
 impl TileBox {
-    /// Whether all its points lie so in the tiles next to one of these that they have places there: nothing is clipped,
-    /// and 16 bits take the way from the tile's center.
+    /// Whether all its points lie in neighbouring tiles: then nothing is clipped, and 16 bits hold the offsets from a
+    /// tile's center.
     pub(crate) fn is_at_hand(&self) -> bool {
         let [left, right, top, bottom] = self.tiles;
         self.is_inside && right - left <= 1 && bottom - top <= 1
     }
 
-    /// Whether it is at hand in a single tile, in which all that is part of it lies then, too.
+    /// Whether it is at hand and lies in a single tile.
     pub(crate) fn is_in_one(&self) -> bool {
         let [left, right, top, bottom] = self.tiles;
         self.is_inside && left == right && top == bottom
     }
 }
 
-/// How far from the eye something is: its middle, how far it reaches before and behind it, and in any direction.
+/// The distance of an extent from the eye: its middle, its reach along the view, and its radius.
 struct Depth {
     middle: f32,
     reach: f32,
     radius: f32,
 }
 
-/// The tiles from `low` to `high`, given as shares of a side, with a pixel to spare; and whether all that is in the
+/// The tiles from `low` to `high`, given as shares of a side, with a margin of a pixel; and whether all of it is in the
 /// picture.
 fn tiles_of(low: f32, high: f32, size: f32) -> Option<([u16; 2], bool)> {
     let (low, high) = (low * size - 1.0, high * size + 1.0);
@@ -163,8 +163,7 @@ mod tests {
         PlacedInstance { rows, stretch, left_out: 0.0, near: 0.1, scale: [1.0, 16.0 / 9.0], size: SIZE }
     }
 
-    /// The tile of a point as vertices are put onto the picture; `None` where it is before the near plane or out of
-    /// sight.
+    /// The tile of a point, projected as vertices are; `None` if it is before the near plane or outside the picture.
     fn tile_of(placed: &PlacedInstance, point: [f32; 3]) -> Option<[u16; 2]> {
         let [x, y, z] =
             placed.rows.map(|[a, b, c, d]| c.mul_add(point[2], b.mul_add(point[1], a.mul_add(point[0], d))));
@@ -220,7 +219,7 @@ mod tests {
         assert!(!at_hand(0.0, -0.5, 0.1), "it is in more than two columns of tiles");
     }
 
-    /// A plate that is seen edge-on stands in one column of tiles, and its sphere in many.
+    /// A plate seen edge-on lies in one column of tiles, and its sphere in many.
     #[test]
     fn boxes_leave_out_tiles_that_spheres_meet() {
         let placed = placed([[1.0, 0.0, 0.0, 0.02], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -4.0]]);

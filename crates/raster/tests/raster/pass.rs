@@ -1,4 +1,4 @@
-//! What passes mean apart from light: order, blending, formats, ranges of indices, and what is refused.
+//! Passes without lighting: order, blending, formats, ranges of indices, and refused input.
 
 use crate::common::{Scene, Shading, at, draw, lens, sphere};
 use halfway_lighting::Samples;
@@ -103,14 +103,14 @@ fn blended_surfaces_are_drawn_after_opaque_ones() {
 
 #[test]
 fn triangles_of_a_mesh_blend_in_their_order() {
-    // Squares of one mesh over each other: small ones and large ones by turns, each over what is there by a half.
+    // Squares of one mesh over each other, small and large in turn, each blended by a half.
     let mut positions = Vec::new();
     let mut scene = squares(&[(2.0, RED, 0.5)], true);
     for (number, reach) in [9.0_f32, 0.05, 9.0, 0.05, 0.05, 9.0].into_iter().enumerate() {
         let depth = -0.01 * number as f32;
         positions.extend([[-reach, -reach, depth], [reach, -reach, depth], [0.0, reach, depth]]);
     }
-    // Front and back differ in color, and triangles turn over by turns.
+    // Front and back differ in color, and every other triangle is flipped.
     let indices: Vec<_> = (0..6)
         .flat_map(|k| if k % 2 == 0 { [3 * k, 3 * k + 1, 3 * k + 2] } else { [3 * k, 3 * k + 2, 3 * k + 1] })
         .collect();
@@ -130,7 +130,7 @@ fn a_range_of_indices_draws_its_triangles() {
     let mut scene = squares(&[(2.0, RED, 1.0)], false);
     scene.draws[0].indices = 3..6;
     let reds = floats(&scene).iter().filter(|pixel| pixel[0] > 0.5).count();
-    // The upper left half of 70 × 66 pixels, but for how the diagonal of another shape runs.
+    // About the upper left half of 70 × 66 pixels, since the diagonal may run differently.
     assert!((1_500..3_200).contains(&reds), "{reds}");
     scene.draws[0].indices = 1..6;
     let refused = refusal(&scene);
