@@ -1,4 +1,4 @@
-//! Pictures on their way from the adapter that draws them.
+//! Pictures that are being read back from the adapter.
 
 use crate::cpu::canvas::{Canvas, CanvasTarget};
 #[cfg(feature = "wgpu")]
@@ -10,15 +10,15 @@ use bevy_ecs::schedule::InternedScheduleLabel;
 use halfway_frame::error::RenderError;
 use halfway_frame::report::FrameReport;
 
-/// A picture on its way from what has drawn it. Poll it with [`PendingPicture::try_take`] while other frames
-/// are drawn, or wait for it with [`PendingPicture::wait`].
+/// A picture that is being read back. Poll it with [`PendingPicture::try_take`] while other frames are drawn, or wait
+/// for it with [`PendingPicture::wait`].
 pub struct PendingPicture(Pending);
 
 enum Pending {
     /// The GPU copies it.
     #[cfg(feature = "wgpu")]
     Copied(ReadBack),
-    /// The CPU has drawn it; until it is taken.
+    /// The CPU has drawn it; `None` once it is taken.
     There(Option<Picture>),
 }
 
@@ -27,7 +27,7 @@ impl PendingPicture {
     ///
     /// # Errors
     /// [`RenderError::NoPicture`] before the first headless frame or while a window is the target;
-    /// [`RenderError::TooLarge`] or [`RenderError::Memory`] where there is no room for the copy.
+    /// [`RenderError::TooLarge`] or [`RenderError::Memory`] if there is no memory for the copy.
     pub fn request(world: &World) -> Result<Self, RenderError> {
         #[cfg(feature = "wgpu")]
         if let (Some(gpu), Some(target)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) {
@@ -39,7 +39,7 @@ impl PendingPicture {
         Ok(Self(Pending::There(Some(picture))))
     }
 
-    /// The picture if it has arrived; `None` while it has not, and after it was taken.
+    /// The picture if it has arrived; `None` before, and after it was taken.
     ///
     /// # Errors
     /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way.
@@ -55,7 +55,7 @@ impl PendingPicture {
     ///
     /// # Errors
     /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way;
-    /// [`RenderError::NoPicture`] where it was taken.
+    /// [`RenderError::NoPicture`] if it was taken.
     pub fn wait(self) -> Result<Picture, RenderError> {
         match self.0 {
             #[cfg(feature = "wgpu")]
@@ -66,8 +66,8 @@ impl PendingPicture {
 }
 
 /// Runs one frame of `app` ([`App::update`]) and waits for its picture: systems run and time passes. [`take_picture`]
-/// draws the world as it is. Everything the frame could not do is an error here: the first of
-/// [`FrameReport::errors`].
+/// draws the world as it is. Every problem of the frame is an error here: the first of [`FrameReport::errors`] is
+/// returned.
 ///
 /// # Errors
 /// The frame's first error, or why its picture could not be read back.

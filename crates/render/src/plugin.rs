@@ -1,4 +1,4 @@
-//! The plugin and the way of one frame.
+//! The plugin and the stages of a frame.
 
 use crate::choice::AdapterChoice;
 use crate::cpu;
@@ -19,9 +19,9 @@ use halfway_frame::{FramePlugin, ReadCamera};
 /// Draws every entity with a [`Mesh3d`](halfway_mesh::Mesh3d) through the world's [`Camera`](halfway_lighting::Camera), once a run of its
 /// schedule.
 ///
-/// Needs `GlobalTransform`s to be current: it runs after `TransformSystems::Propagate` where that set
-/// is in the same schedule, and an App with a schedule of its own propagates before. Where nothing propagates them, the
-/// frame is not drawn, and [`FrameReport::errors`] says so.
+/// Needs current `GlobalTransform`s: it runs after `TransformSystems::Propagate` if that set is in the same schedule,
+/// and an App with a schedule of its own propagates before. If no system propagates them, the frame is not drawn, and
+/// [`FrameReport::errors`] says so.
 ///
 /// Each error of a frame is logged once by the `log` crate (target `halfway_render::errors`; a window says them
 /// itself), and so is each warning: an opacity that is not shown without
@@ -65,8 +65,8 @@ impl Plugin for RenderPlugin {
     }
 }
 
-/// Opens an adapter for headless pictures unless one is open. What fails is in the report, every frame anew, so that an
-/// adapter that appears later is found. A device that is lost is replaced once a report has said so.
+/// Opens an adapter for headless pictures unless one is open. A failure is reported and retried in every frame, so that
+/// an adapter that appears later is found. A lost device is replaced after its loss was reported.
 fn open(world: &mut World) {
     #[cfg(feature = "wgpu")]
     if let Some(gpu) = world.get_resource::<Gpu>().cloned() {

@@ -17,20 +17,21 @@ use halfway_frame::why_empty::{EmptyReason, why_empty};
 #[derive(Resource, Default)]
 pub(crate) struct Told(HashSet<String>);
 
-/// So that a scene that goes wrong in ever new words takes no memory without end.
+/// The most messages, so that errors with ever new texts do not use unlimited memory.
 const MOST: usize = 1000;
 
 impl Told {
-    /// Whether the message is new. It is not from now on.
+    /// Records the message, and returns whether it is new.
     fn is_new(&mut self, message: &str) -> bool {
         self.0.len() < MOST && !self.0.contains(message) && self.0.insert(message.to_owned())
     }
 }
 
-/// Logs each error of the frame, unless a window shows the frames: it says errors itself, also without a logger.
+/// Logs each error of the frame, unless a window shows the frames: the window reports errors itself, also without a
+/// logger.
 ///
-/// The target has a name of its own, so that a program that prints what
-/// [`render_picture`](crate::render_picture) returns can turn these off.
+/// The log target has a name of its own, so that a program that prints the errors of
+/// [`render_picture`](crate::render_picture) can turn these off.
 pub(crate) fn tell_errors(
     report: Res<FrameReport>,
     #[cfg(feature = "wgpu")] surface: Option<Res<SurfaceTarget>>,
@@ -54,7 +55,7 @@ pub(crate) fn tell_errors(
 
 type Opaque = (With<Mesh3d>, Without<Blend>, Without<Mask>, Changed<Material>);
 
-/// Logs how many materials have an opacity that nothing shows.
+/// Logs materials with an opacity that has no effect.
 pub(crate) fn tell_of_opacity(objects: Query<(Entity, &Material, Option<&Name>), Opaque>, mut told: ResMut<Told>) {
     let mut hidden = objects.iter().filter(|(_, material, _)| material.opacity < 1.0);
     let Some((entity, _, name)) = hidden.next() else { return };
@@ -76,7 +77,7 @@ pub(crate) fn may_be_empty(report: Res<FrameReport>) -> bool {
 
 /// Logs why the frame shows nothing.
 pub(crate) fn tell_why_empty(world: &mut World) {
-    // A room may be seen from within; whoever finds the picture empty asks for it.
+    // A camera may be inside an object on purpose; `why_empty` still gives that reason on request.
     let reason = why_empty(world).filter(|reason| !matches!(reason, EmptyReason::CameraInside { .. }));
     let Some(reason) = reason else { return };
     if world.resource_mut::<Told>().is_new(&reason.to_string()) {

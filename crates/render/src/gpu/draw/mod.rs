@@ -1,4 +1,4 @@
-//! How wgpu draws batches: what draws read is uploaded, and the pass is encoded, submitted and presented.
+//! Draws batches with wgpu: uploads the data of draws, and encodes, submits and presents the passes.
 
 pub(crate) mod flat;
 pub(crate) mod maps;

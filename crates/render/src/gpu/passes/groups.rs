@@ -1,10 +1,10 @@
-//! Groups of draws that share their state, which opaque and blended objects are.
+//! Groups of draws that share their state, for opaque and blended objects.
 
 use crate::gpu::passes::ScenePasses;
 use halfway_frame::batch::draws::DrawGroup;
 use halfway_frame::passes::{self, Phase};
 
-/// Draws the groups of `phase` of which everything is there, and returns how many draws had to be left out.
+/// Draws the groups of `phase` whose resources all exist, and returns the number of omitted draws.
 pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &ScenePasses<'_>, phase: Phase) -> u32 {
     let ScenePasses { batches, meshes, pipelines, buffers, .. } = scene;
     let groups = passes::groups(batches, phase);
@@ -14,7 +14,7 @@ pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &ScenePasses<'_>, p
     let (mut last, mut left_out) = (None, 0);
     for group in groups {
         let state = &group.state;
-        // Until it is drawn.
+        // Counted as omitted until it is drawn.
         left_out += count(std::slice::from_ref(group));
         let (Some(pipeline), Some(mesh), Some((bindings, offset))) =
             (pipelines.get(state.key), meshes.get(state.mesh, state.form), buffers.bindings(state))
@@ -36,7 +36,7 @@ pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &ScenePasses<'_>, p
         if state.key.is_mapped() {
             let (Some(uvs), Some(maps)) = (&mesh.uvs, buffers.maps.group(state.maps)) else { continue };
             pass.set_vertex_buffer(4, uvs.slice(..));
-            // Where there are no tangents none are looked at.
+            // Without tangents any buffer will do, since no shader reads it.
             pass.set_vertex_buffer(5, mesh.tangents.as_ref().unwrap_or(uvs).slice(..));
             pass.set_bind_group(1, maps, &[]);
         }

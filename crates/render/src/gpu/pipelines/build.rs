@@ -1,4 +1,4 @@
-//! How a pipeline is built from its key.
+//! Builds a pipeline from its key.
 
 use crate::gpu::attachments::{DEPTH_FORMAT, ShaderOutput};
 use crate::gpu::device::Gpu;
@@ -90,7 +90,7 @@ impl Shader {
     }
 }
 
-/// opacity·I + (1 − opacity)·what is behind; the picture stays opaque.
+/// opacity·I + (1 − opacity)·B over the color B behind; the picture stays opaque.
 const OVER: wgpu::BlendState = wgpu::BlendState {
     color: wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::SrcAlpha,
@@ -127,7 +127,7 @@ fn constants(key: &DrawKey, output: ShaderOutput) -> Vec<(&'static str, f64)> {
     if key.is_mapped() { constants.into_iter().chain(map_constants(key)).collect() } else { constants }
 }
 
-/// How images are looked up, by the names of maps.wgsl.
+/// The constants of image lookups, by their names in maps.wgsl.
 fn map_constants(key: &DrawKey) -> impl Iterator<Item = (&'static str, f64)> {
     const NAMES: [&str; MapKind::COUNT] = [
         "COLOR_MAP",
