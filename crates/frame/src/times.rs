@@ -1,4 +1,4 @@
-//! Where the time of a frame goes on the CPU, set by set.
+//! The time of a frame on the CPU, set by set.
 
 use crate::mean::{self, FrameWeights};
 use crate::sets::RenderSet;
@@ -9,7 +9,7 @@ use bevy_transform::TransformSystems;
 
 use std::time::{Duration, Instant};
 
-/// How long the CPU took for each [`RenderSet`], and how long the frame waited for the display.
+/// The CPU's time for each [`RenderSet`], and the frame's wait for the display.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SetTimes {
     /// In seconds, by the sets' order.

@@ -6,7 +6,7 @@ use bevy_transform::components::Transform;
 use crate::invalid::{Fields, InvalidValue, Problem};
 use crate::place::{direction, rotation_along};
 
-/// Where a light with a homogeneous position is, as `GL_POSITION` of OpenGL has it.
+/// The homogeneous position of a light, as `GL_POSITION` of OpenGL.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightPlace {
     /// w ≠ 0: the point xyz/w.

@@ -21,7 +21,7 @@ pub enum Shading {
     Phong,
 }
 
-/// Where each term of an object's lights is evaluated, in place of its [`Shading`].
+/// The frequency at which each term of an object's lights is evaluated, in place of its [`Shading`].
 ///
 /// Flat is `Triangle` for both, Gouraud `Vertex`, Phong `Fragment` (`Terms::from(shading)`). The hybrid that keeps
 /// highlights sharp and spares the rest is `Terms { diffuse: Vertex, specular: Fragment }`. Emission and ambient are
@@ -95,7 +95,7 @@ pub enum Reflectance {
     BlinnPhongMatched,
 }
 
-/// Which sides of a surface are drawn. Front faces wind counter-clockwise, also under a mirroring transform.
+/// The sides of a surface that are drawn. Front faces wind counter-clockwise, also under a mirroring transform.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Faces {
     /// Front faces; back faces are culled.
@@ -149,7 +149,7 @@ impl Mask {
     }
 }
 
-/// Where the viewer is for the highlights.
+/// The position of the viewer for the highlights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Viewer {
     /// v points from the surface to the eye.

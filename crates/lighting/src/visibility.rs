@@ -43,7 +43,7 @@ impl Shown<'_, '_> {
         move |entity| !hides || self.is_shown(entity)
     }
 
-    /// Whether any entity is [`Visibility::Hidden`]. Where none is, all are shown.
+    /// Whether any entity is [`Visibility::Hidden`]. If none is, all are shown.
     pub fn hides_any(&self) -> bool {
         self.visibilities.iter().any(|&visibility| visibility == Visibility::Hidden)
     }

@@ -74,7 +74,7 @@ impl PixelFormat {
 pub struct Lens {
     /// cot(fov/2)/aspect and cot(fov/2), above 0.
     pub scale: [f32; 2],
-    /// Distance of the near plane, above 0. What is nearer is cut off.
+    /// Distance of the near plane, above 0. Nearer surfaces are clipped.
     pub near: f32,
 }
 

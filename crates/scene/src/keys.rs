@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 use crate::check::{Check, KeyProblem, Limits, Within};
 use crate::entry::{Entry, Read, Written, reference};
 
-/// How a type appears in a scene file: as an object with keys, as a word, or as either.
+/// The form of a type in a scene file: as an object with keys, as a word, or as either.
 ///
 /// The macros [`keys!`] and [`words!`] generate this from tables.
 pub(crate) trait Keys: Clone + PartialEq + 'static {
@@ -29,7 +29,7 @@ pub(crate) trait Keys: Clone + PartialEq + 'static {
     fn word(&self) -> Option<&str> {
         Self::WORDS.iter().find(|(_, value, _)| value == self).map(|(word, ..)| *word)
     }
-    /// The value of an object without keys. Those that are required have values that nobody sees.
+    /// The value of an object without keys. The values of required keys are placeholders.
     fn blank() -> Self;
     /// Passes every key and its value to a visitor; words have none.
     fn visit<V: Visit>(&self, _visitor: &mut V) -> Result<(), V::Error> {

@@ -24,7 +24,7 @@ pub(crate) struct Reflecting<'a> {
     pub(crate) faces: Faces,
     /// The mesh has colors that count.
     pub colored: bool,
-    /// How images are looked up.
+    /// The lookups of the images.
     pub maps: MapLooks,
     /// A mask cuts away low opacity.
     pub masked: bool,

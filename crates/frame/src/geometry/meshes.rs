@@ -26,13 +26,13 @@ pub struct Geometry {
     pub drawn: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
-    /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken them.
+    /// The vertices of the triangles, in drawing order; taken out by the renderer that draws them.
     pub(crate) triangles: Option<Arc<Vec<[u32; 3]>>>,
-    /// The same as the CPU draws them, where they have been made ready beside the frames.
+    /// The same as the CPU draws them, if they have been prepared in the background.
     pub pieces: Option<Prepared>,
 }
 
-/// How a mesh is laid out for drawing.
+/// The layout of a mesh for drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[expect(clippy::struct_excessive_bools, reason = "each is one independent choice")]
 pub struct Form {
@@ -114,9 +114,9 @@ impl<'a> Paint<'a> {
 #[derive(Resource, Default)]
 pub struct Geometries {
     meshes: HashMap<(AssetId<Mesh>, Form), Geometry>,
-    /// How many there were, and how many assets, when those that are gone were last looked for.
+    /// The numbers of meshes and of assets at the last search for removed ones.
     looked: (usize, usize),
-    /// How many meshes have been forgotten since the start.
+    /// The number of meshes dropped since the start.
     pub(crate) forgotten: u64,
 }
 

@@ -20,7 +20,7 @@ pub struct MeshTriangles {
     pub pieces: Option<Prepared>,
 }
 
-/// A mesh with levels of detail as a drawer takes it, made beside the frames; only that drawer knows its type.
+/// A mesh with levels of detail as a renderer takes it, made in the background; only that renderer knows its type.
 pub type Prepared = Arc<dyn Any + Send + Sync>;
 
 /// The patches of a mesh.
@@ -28,9 +28,9 @@ pub type Prepared = Arc<dyn Any + Send + Sync>;
 pub struct Patches {
     shapes: Vec<PatchShape>,
     outlines: Vec<Outline>,
-    /// Where the indices of each patch begin, and where those of the last end.
+    /// The first index of each patch, and the end of the last.
     starts: Vec<u32>,
-    /// Neighbouring patches, which are culled together before each is looked at.
+    /// Neighbouring patches, which are culled together before each is tested.
     groups: Vec<PatchGroup>,
     /// `None` where all patches are the mesh's own.
     levels: Option<Levels>,
@@ -55,7 +55,7 @@ struct Levels {
 /// The demands that the level of detail of an object depends on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DetailDemand {
-    /// How far points may be off, in pixels; 0 for the mesh itself.
+    /// The allowed displacement of points, in pixels; 0 for the mesh itself.
     pub(crate) pixels: f32,
     pub(crate) lit: bool,
     pub(crate) has_images: bool,
@@ -171,7 +171,8 @@ impl Patches {
 }
 
 impl Levels {
-    /// For which groups the simplified version is detailed enough. Where it is, so are those of all finer groups below.
+    /// Whether the simplified version of each group is detailed enough. If it is, so are those of all finer groups
+    /// below.
     fn which_will_do(&self, sight: &Sight, DetailDemand { pixels, lit, has_images }: DetailDemand) -> Vec<bool> {
         let mut will_do = vec![false; self.groups.len()];
         if pixels <= 0.0 {

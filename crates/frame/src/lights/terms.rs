@@ -7,7 +7,8 @@ use crate::view::matrices::Visible;
 use bevy_ecs::prelude::*;
 use halfway_lighting::{Frequency, Shading, Terms};
 
-/// Where the frame shades each term of an object. Holds after [`RenderSet::Choose`](crate::sets::RenderSet::Choose).
+/// The frequency at which the frame shades each term of an object. Holds after
+/// [`RenderSet::Choose`](crate::sets::RenderSet::Choose).
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Chosen(pub Terms);
 

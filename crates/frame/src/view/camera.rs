@@ -16,7 +16,7 @@ pub struct View {
     pub eye_from_world: DAffine3,
     /// Eye to clip.
     pub projection: Projection,
-    /// How many pixels a way of 1 across the view takes at a depth of 1.
+    /// The length in pixels of a segment of length 1 across the view at a depth of 1.
     pub pixels_at_unit_depth: f32,
     /// The shading of objects that name none.
     pub shading: Shading,
@@ -30,7 +30,7 @@ pub struct View {
 }
 
 impl View {
-    /// How long a world unit is in the eye space of the shaders: a power of two, and 1 but for scenes so large or so
+    /// The length of a world unit in the eye space of the shaders: a power of two, and 1 but for scenes so large or so
     /// small that the squares of their distances leave f32. Holds after
     /// [`RenderSet::Select`](crate::sets::RenderSet::Select).
     pub fn unit(&self) -> f64 {

@@ -4,10 +4,10 @@
 use crate::equations::vector::{add, cross, dot, scale, sub, toward};
 use crate::equations::{Eye, Real};
 
-/// 32 ε: what a cosine is raised by, and the share by which a radius is widened and a distance shortened.
+/// 32 ε: every cosine is raised by it, and radii are widened and distances shortened by this share.
 ///
-/// The longest way from the scene's numbers to a cosine, Phong's with four angles added, has some thirty roundings of
-/// ε/2 each: half of this.
+/// The longest computation of a cosine from the scene's numbers, Phong's with four angles added, has some thirty
+/// roundings of ε/2 each: half of this.
 pub(crate) fn slack<T: Real>() -> T {
     T::epsilon() * T::of(32.0)
 }
@@ -40,8 +40,7 @@ impl<T: Real> Angle<T> {
     }
 
     /// The acute angle whose sine is opposite/hypotenuse, widened by the slack; π where the quotient is not below 1. So
-    /// π stands for "any direction": the sphere or the ball of vectors that is looked at holds the place it is looked
-    /// at from.
+    /// π stands for "any direction": the sphere or the ball of vectors contains the viewing point.
     pub(crate) fn subtended(opposite: T, hypotenuse: T) -> Self {
         let widened = opposite * (T::one() + slack());
         if widened < hypotenuse {

@@ -71,7 +71,7 @@ enum Lobe<T> {
     Mirror { spread: Angle<T> },
 }
 
-/// Where a light is, seen from the middle of the patch.
+/// The position of a light relative to the middle of the patch.
 #[derive(Clone, Copy)]
 pub(crate) struct Offset<T> {
     /// L − c; the unit vector l of a directional light.
@@ -84,11 +84,11 @@ pub(crate) struct Offset<T> {
     blur: T,
 }
 
-/// How a light arrives at the points of a patch.
+/// The directions and distances of a light at the points of a patch.
 pub(crate) struct Arrival<T> {
     /// Every l.
     l: Cap<T>,
-    /// The least angle between an l and the axis of the normals, known from the thickness; 0 where it tells nothing.
+    /// The least angle between an l and the axis of the normals, known from the thickness; 0 if that is unknown.
     rise: Angle<T>,
     /// The least distance from a point of the patch.
     pub(crate) nearest: T,
@@ -103,8 +103,8 @@ impl<T: Real> Arrival<T> {
 }
 
 impl<T: Real> Receiver<T> {
-    /// Prepares `patch` with the coefficients of the sides that are seen, all in one space. For coefficients that vary
-    /// over the patch, give the largest value of each channel, and the smallest shininess.
+    /// Prepares `patch` with the coefficients of its visible sides, all in one space. For coefficients that vary over
+    /// the patch, give the largest value of each channel, and the smallest shininess.
     pub fn new(patch: &Patch<T>, material: &Coefficients<T>, view: &Eye<T>, reflectance: Reflectance) -> Self {
         let normals = patch.seen_normals();
         let view = Cap::toward_eye(patch.center, patch.radius, view);
@@ -130,7 +130,7 @@ impl<T: Real> Receiver<T> {
         }
     }
 
-    /// The bounds of the terms that may be lit, for a light with these colours that arrives so, with this weight at most.
+    /// The bounds of the terms that may be lit, for a light with these colours, this arrival and at most this weight.
     #[inline]
     pub(crate) fn bounds_of(
         &self,
@@ -170,12 +170,12 @@ impl<T: Real> Receiver<T> {
     // bound, and all that a tolerance of 0 asks for. The tests are those of the second table at `bounds`, multiplied by
     // D. A test fails only by more than its rounding, and never with NaN.
 
-    /// The way to a light whose l is the same everywhere.
+    /// The offset of a light whose l is the same everywhere.
     pub(crate) fn offset_along(l: [T; 3]) -> Offset<T> {
         Offset { vector: l, square: T::one(), radius: T::zero(), half_thickness: T::zero(), blur: slack() }
     }
 
-    /// The way to a light at a position; `None` where its square leaves the number range.
+    /// The offset of a light at a position; `None` if its square leaves the number range.
     #[inline]
     pub(crate) fn offset_to(&self, position: [T; 3]) -> Option<Offset<T>> {
         let vector = sub(position, self.center);
@@ -187,7 +187,7 @@ impl<T: Real> Receiver<T> {
         Some(Offset { vector, square, radius: self.radius, half_thickness: self.half_thickness, blur })
     }
 
-    /// Those of the terms that may be above 0 by the directions of the normals, the light and the viewer.
+    /// The terms that may be above 0 by the directions of the normals, the light and the viewer.
     #[inline]
     pub(crate) fn facing_terms(&self, offset: &Offset<T>, colored: LitTerms) -> LitTerms {
         let faces = (colored.diffuse || colored.specular) && self.may_face(offset);
@@ -260,12 +260,12 @@ impl<T: Real> Receiver<T> {
         !(cos > T::zero() && along <= -sin - blur)
     }
 
-    /// How a light arrives whose l is the same everywhere.
+    /// The arrival of a light whose l is the same everywhere.
     pub(crate) fn arrival_along(l: [T; 3]) -> Arrival<T> {
         Arrival { l: Cap::single(l), rise: Angle::zero(), nearest: T::zero() }
     }
 
-    /// How a light at `position` arrives.
+    /// The arrival of a light at `position`.
     pub(crate) fn arrival(&self, position: [T; 3]) -> Arrival<T> {
         let offset = sub(position, self.center);
         let square = dot(offset, offset);

@@ -51,7 +51,7 @@ impl<T: Real> Coefficients<T> {
     }
 }
 
-/// Where the viewer is, in the space of the evaluation.
+/// The position of the viewer, in the space of the evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Eye<T> {
     /// The eye is at this point; v points from the surface to it.

@@ -2,7 +2,7 @@
 
 use super::Real;
 
-/// Where [`aces`] has long reached 1: it does so at 7.25. More would overflow its squares.
+/// The largest argument of [`aces`], which reaches 1 at 7.25. More would overflow its squares.
 pub const ACES_WHITE: f32 = 8.0;
 
 /// The divisor of a picture whose largest channel is `largest`: that, where it exceeds 1. Of the divisor of the

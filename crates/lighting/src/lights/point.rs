@@ -182,7 +182,8 @@ pub struct Point<T> {
 }
 
 impl<T: Real> Point<T> {
-    /// How it arrives at a point. Where the light is at the point itself ([`COINCIDENT`]) l is n and the distance 0.
+    /// Its direction and strength at a point. If the light is at the point itself ([`COINCIDENT`]) l is n and the
+    /// distance 0.
     pub(super) fn arriving_at(&self, surface: &ShadedPoint<T>) -> Incidence<T> {
         let least = T::of(GRAZING.into());
         let from_eye = length(surface.position);
@@ -254,7 +255,7 @@ impl Point<f64> {
     pub(super) fn seen(&self, view: &LightView) -> Self {
         let LightView { eye_from_world, unit: least, farthest } = *view;
         let position = eye_from_world.transform_point3(self.position.into());
-        // Which is so of nearly all, and takes no division.
+        // True of nearly all points, and takes no division.
         if least == 1.0 && position.length_squared() <= farthest * farthest {
             return Self { position: position.to_array(), ..*self };
         }

@@ -124,7 +124,7 @@ pub struct Spot<T> {
 }
 
 impl<T: Real> Spot<T> {
-    /// How it arrives at a point.
+    /// Its direction and strength at a point.
     fn arriving_at(&self, surface: &ShadedPoint<T>) -> Incidence<T> {
         let incident = self.point.arriving_at(surface);
         let spot = spot_factor(dot(neg(incident.l), self.cone.direction), &self.cone);

@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::LoadError;
 
-/// How a model is loaded.
+/// The options for loading a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LoadOptions {
     /// Whether files that the model refers to may lie outside its own folder: by an absolute path, by `..`, or behind a

@@ -15,7 +15,7 @@ pub(crate) use fans::{Fans, creased_normals};
 pub(crate) use means::vertex_normals;
 pub(crate) use split::{Smoothed, grouped_normals};
 
-/// How a mesh gets its normals.
+/// The way a mesh gets its normals.
 ///
 /// ```
 /// use halfway_mesh::{Cuboid, Mesh, NormalWeighting, Normals};

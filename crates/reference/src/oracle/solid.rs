@@ -32,7 +32,7 @@ pub(super) struct Appearance {
     pub(super) maps: MapSlots<MapSource>,
     /// The opacity below which it is not there.
     pub(super) mask: Option<f64>,
-    /// What it is cut from.
+    /// The solid texture, if it has one.
     pub(super) cut_from: Option<SolidTexture>,
 }
 
@@ -81,7 +81,7 @@ pub(super) struct Solid {
     pub(super) maps: Option<SolidMaps>,
     /// The opacity below which it is not there.
     pub(super) mask: Option<f64>,
-    /// What it is cut from.
+    /// The solid texture, if it has one.
     pub(super) cut_from: Option<SolidTexture>,
     /// Front and back.
     pub(super) sides: [Side; 2],

@@ -91,7 +91,7 @@ fn wrapped_index(at: i64, side: i64, wrap: Wrap) -> i64 {
     }
 }
 
-/// What a filter makes of four texels of which each has a number of its own.
+/// The weights of a filter: its result for four texels with a number each.
 fn texel_weights(f: f64, filter: TexelFilter) -> [f64; 4] {
     let own = |x, _| std::array::from_fn(|k| if k == x as usize { 1.0 } else { 0.0 });
     let image = Pyramid::new(TexelImage::from_fn(4, 1, own).expect("four texels"));

@@ -11,7 +11,7 @@ use crate::{far_of, named, parsed};
 
 const SOLIDS: &str = include_str!("../../src/gpu/shaders/solids.wgsl");
 
-/// What the shader around a call needs besides.
+/// The other text that the shader around a call needs.
 const LIGHT: &str = include_str!("../../src/gpu/shaders/lighting.wgsl");
 
 fn too_far(gpu: &Gpu, solids: &str, row: &Row) -> Option<String> {

@@ -19,7 +19,7 @@ macro_rules! shader {
     };
 }
 
-/// What the file needs, where it has images.
+/// The files that the text needs, if it has images.
 static BEFORE: LazyLock<[&str; 7]> = LazyLock::new(|| {
     [
         &LIGHTING,
@@ -60,7 +60,7 @@ fn switches(mapped: bool) -> Vec<(&'static str, bool)> {
 const ULP: f64 = f32::EPSILON as f64;
 const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
-/// What arrives, a material, and a color.
+/// The arriving light, a material, and a color.
 #[derive(Clone)]
 struct Lit {
     arriving: Irradiance<f64>,
@@ -84,7 +84,7 @@ impl Lit {
         self
     }
 
-    /// What the material gives back, under the color.
+    /// The light that the material reflects, multiplied by the color.
     fn sum(&self) -> [f64; 3] {
         let Coefficients { ka, kd, .. } = self.material;
         reflected(&self.arriving, &Coefficients { ka: mul(ka, self.color), kd: mul(kd, self.color), ..self.material })
@@ -138,7 +138,7 @@ fn output_row(constants: &'static [(&'static str, f64)], twin: fn(&[f32]) -> Vec
     Row { function: "output", call, kind: Kind::Texel, constants, inputs: inputs(), twin, allowed: exactly }
 }
 
-/// What is below 0 is an adapter's extrapolation.
+/// Numbers below 0 are an adapter's extrapolation.
 fn not_below_0(x: &[f32]) -> Vec<f64> {
     x.iter().map(|&x| f64::from(x.max(0.0))).collect()
 }

@@ -1,4 +1,4 @@
-//! What is left out stays within the tolerance, is the weakest, and cannot be more.
+//! The sum of the omitted terms stays within the tolerance; they are the weakest, and no more could be omitted.
 
 use halfway_lighting::bounds::Selected;
 use halfway_lighting::equations::Light;

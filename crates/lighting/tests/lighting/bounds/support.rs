@@ -163,7 +163,8 @@ pub(crate) fn direction(a: f64, b: f64) -> [f64; 3] {
     [r * (TAU * b).cos(), r * (TAU * b).sin(), z]
 }
 
-/// What exceeds its bound, in words, or `None`. `f32` counts numbers below its smallest normal one as 0.
+/// A description of the first term that exceeds its bound, or `None`. `f32` counts numbers below its smallest normal
+/// one as 0.
 pub(crate) fn exceeds<T: Real>(terms: &LightTerms<f64>, bounds: &TermBounds<T>, light: &Light<f64>) -> Option<String> {
     // An ambient that is not attenuated is no part of the bounds.
     let ambient = if light.steady_ambient() == [0.0; 3] { terms.ambient } else { [0.0; 3] };

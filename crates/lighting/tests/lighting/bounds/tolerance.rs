@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::support::cases;
 
-/// What an 8-bit picture holds before it is rounded.
+/// The value of a channel of an 8-bit picture before rounding.
 fn written(encoding: Encoding, linear: f64) -> f64 {
     encoding.encode(linear.min(1.0))
 }

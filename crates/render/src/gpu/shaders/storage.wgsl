@@ -13,7 +13,7 @@ fn light_numbered(i: u32) -> Light {
     return lights[i];
 }
 
-// Adds the lights of a range: where their numbers begin, and how many.
+// Adds the lights of a range of `lists`.
 fn add_listed(before: Irradiance, p: vec3f, n: vec3f, shininess: f32, range: vec2u, terms: Terms) -> Irradiance {
     let v = view_vector(p, n);
     var sum = before;
