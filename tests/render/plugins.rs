@@ -109,7 +109,7 @@ fn plugins_may_come_in_any_order_before_and_after_the_scene() {
         app.finish();
         app.cleanup();
         assert_identical(&row, &expected, &float(&mut app));
-        adapter = adapter.or_else(|| Adapter::of(app.world()));
+        adapter = adapter.or_else(|| Adapter::from_world(app.world()));
 
         // The assets that the systems hold are those that the renderer watches.
         let world = app.world_mut();

@@ -84,7 +84,7 @@ impl Stage {
 
     /// The adapter that has drawn.
     pub(crate) fn adapter(&self) -> Adapter {
-        Adapter::of(self.app.world()).expect("a frame has been drawn")
+        Adapter::from_world(self.app.world()).expect("a frame has been drawn")
     }
 
     /// Whether the CPU has drawn, without a driver.

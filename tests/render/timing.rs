@@ -39,7 +39,7 @@ fn a_frames_sets_take_no_longer_than_the_frame() {
         let newest = *times(&stage).newest();
         assert!(newest.total() <= whole, "frame {frame}: {:?} of {whole:?}", newest.total());
         // Encoding and submitting a pass takes more than a tick of any clock.
-        assert!(newest.of(RenderSet::Draw) > Duration::ZERO, "frame {frame}: {newest:?}");
+        assert!(newest.duration(RenderSet::Draw) > Duration::ZERO, "frame {frame}: {newest:?}");
         assert_eq!(newest.display(), Duration::ZERO, "there is no display");
     }
     assert!(times(&stage).smoothed().total() > Duration::ZERO);
@@ -59,7 +59,7 @@ fn with_a_nap_in(set: RenderSet) -> SetTimes {
 fn a_slow_system_counts_to_its_own_set() {
     for slow in RenderSet::ALL {
         let newest = with_a_nap_in(slow);
-        assert!(newest.of(slow) >= NAP, "{slow:?}: {newest:?}");
+        assert!(newest.duration(slow) >= NAP, "{slow:?}: {newest:?}");
     }
 }
 

@@ -107,7 +107,7 @@ impl Camera {
     /// # Errors
     /// An [`InvalidValue`] that names the field.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        let fields = Fields::of("Camera");
+        let fields = Fields::for_owner("Camera");
         fields.within("fov_y", self.fov_y, Self::FIELD_OF_VIEW)?;
         fields.positive("near", self.near)?;
         fields.color("background", self.background)?;

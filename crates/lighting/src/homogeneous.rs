@@ -22,7 +22,7 @@ pub enum LightPlace {
 pub fn from_homogeneous(position: Vec4) -> Result<LightPlace, InvalidValue> {
     let refused = || {
         let problem = Problem::NotHomogeneous { value: position.to_array() };
-        Fields::of("Light").error("position", problem)
+        Fields::for_owner("Light").error("position", problem)
     };
     if !position.is_finite() {
         return Err(refused());

@@ -17,7 +17,7 @@ pub fn light_position(transform: &GlobalTransform) -> Result<Vec3, InvalidValue>
         Ok(position)
     } else {
         let problem = Problem::NoPosition { value: position.to_array() };
-        Err(Fields::of("GlobalTransform").error("translation", problem))
+        Err(Fields::for_owner("GlobalTransform").error("translation", problem))
     }
 }
 
@@ -66,5 +66,5 @@ pub fn rotation_along(along: Vec3) -> Result<Quat, InvalidValue> {
 pub(crate) fn direction(value: Vec3, owner: &'static str, field: &str) -> Result<Vec3, InvalidValue> {
     normalize(value.to_array())
         .map(Vec3::from_array)
-        .ok_or_else(|| Fields::of(owner).error(field, Problem::NoDirection { value: value.to_array() }))
+        .ok_or_else(|| Fields::for_owner(owner).error(field, Problem::NoDirection { value: value.to_array() }))
 }

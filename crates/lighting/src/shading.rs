@@ -64,7 +64,7 @@ impl Terms {
             None => Ok(()),
             Some(other) => {
                 let field = if self.diffuse == Frequency::Triangle { "diffuse" } else { "specular" };
-                Err(Fields::of("Terms").error(field, Problem::TriangleBeside { other }))
+                Err(Fields::for_owner("Terms").error(field, Problem::TriangleBeside { other }))
             }
         }
     }
@@ -145,7 +145,7 @@ impl Mask {
     /// # Errors
     /// It is not so.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        Fields::of("Mask").non_negative("0", self.0)
+        Fields::for_owner("Mask").non_negative("0", self.0)
     }
 }
 

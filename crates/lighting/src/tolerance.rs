@@ -56,7 +56,7 @@ impl Tolerance {
     /// # Errors
     /// Returns [`InvalidValue`] if one is negative or not finite.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        validate(self, Fields::of("Tolerance"))
+        validate(self, Fields::for_owner("Tolerance"))
     }
 }
 

@@ -45,8 +45,8 @@ impl MappedVertices {
         &mut self.0[usize::from(back) * GROUPS + group][..]
     }
 
-    /// Those of a vertex, on the visible side.
-    pub(crate) fn of(&self, back: bool, group: usize, vertex: usize) -> &[f32; 4] {
+    /// The attributes of a vertex, on the visible side.
+    pub(crate) fn at(&self, back: bool, group: usize, vertex: usize) -> &[f32; 4] {
         &self.0[usize::from(back) * GROUPS + group][vertex]
     }
 }

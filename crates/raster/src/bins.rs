@@ -102,7 +102,7 @@ impl Bins {
         for blend in [false, true] {
             for (number, draw) in pass.draws.iter().enumerate().filter(|(_, draw)| draw.blend == blend) {
                 let Range { start, end } = draw.indices;
-                let pieces = pass.meshes[draw.mesh as usize].of(&draw.indices);
+                let pieces = pass.meshes[draw.mesh as usize].pieces_in(&draw.indices);
                 let pieces = pieces.ok_or(RasterError::Cut { draw: number, start, end })?;
                 let count = pieces.len() as u64 * draw.instances.len() as u64;
                 self.spans.push(Span { draw: number as u32, pieces, start: total });

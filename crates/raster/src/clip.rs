@@ -48,7 +48,9 @@ pub(crate) fn each_part(
     let numbers = triangle.map(usize::from);
     let code = numbers.iter().fold(0, |code, &v| code | vertices.codes[v]);
     if code & CLIPPED == 0 {
-        if let Some(ready) = set_up(&[0, 1, 2].map(|k| Corner::of(vertices, numbers[k], UNITS[k])), tile, covering) {
+        if let Some(ready) =
+            set_up(&[0, 1, 2].map(|k| Corner::at_vertex(vertices, numbers[k], UNITS[k])), tile, covering)
+        {
             draw(ready);
         }
         return;
@@ -68,7 +70,7 @@ pub(crate) fn each_part(
 }
 
 impl Corner {
-    fn of(vertices: &Vertices, v: usize, weights: [f64; 3]) -> Self {
+    fn at_vertex(vertices: &Vertices, v: usize, weights: [f64; 3]) -> Self {
         Self {
             weights,
             screen: [vertices.screen[0][v], vertices.screen[1][v]],
@@ -82,7 +84,7 @@ impl Corner {
     /// A weighted mean of a triangle's corners.
     fn between(vertices: &Vertices, numbers: [usize; 3], weights: [f64; 3], screen: &Screen) -> Self {
         if let Some(only) = weights.iter().position(|&weight| weight >= 1.0) {
-            return Self::of(vertices, numbers[only], UNITS[only]);
+            return Self::at_vertex(vertices, numbers[only], UNITS[only]);
         }
         let mean = |list: &[f32]| -> f64 { (0..3).map(|k| weights[k] * f64::from(list[numbers[k]])).sum() };
         let [x, y, z] = [0, 1, 2].map(|axis| mean(&vertices.eye[axis]));

@@ -133,7 +133,7 @@ pub(crate) struct Kept<'a> {
 impl<'a> Kept<'a> {
     /// Inputs of shading.
     #[inline(always)]
-    pub(crate) fn of(look: &'a Look<'a>, state: &'a State, back: bool, mapped: Option<i32>) -> Self {
+    pub(crate) fn new(look: &'a Look<'a>, state: &'a State, back: bool, mapped: Option<i32>) -> Self {
         if let Some(maps) = &state.maps {
             return Self { mapped, mask: maps.mask.is_some().then_some((look, state, back)), ..Self::default() };
         }

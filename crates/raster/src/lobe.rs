@@ -102,7 +102,7 @@ fn axial_exponent<S: Simd>(simd: S, axial: &AxialGloss<S>, h: V3<S>) -> F<S> {
 #[inline(always)]
 fn specular_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, alpha: Power<S>) -> F<S> {
     let twice = dot::<S>(n, l) * splat(simd, 2.0);
-    alpha.of(simd, fma::<S>(twice, dot::<S>(n, v), -dot::<S>(l, v)))
+    alpha.raise(simd, fma::<S>(twice, dot::<S>(n, v), -dot::<S>(l, v)))
 }
 
 /// `max(n·h, 0)^β` with h = (l + v)/‖l + v‖, as ((n·(l + v))²/‖l + v‖²)^(β/2), without the gate n·l > 0; `half_beta` is
@@ -114,7 +114,7 @@ fn specular_blinn_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, half_bet
     let squared = dot::<S>(sum, sum);
     let along = max::<S>(dot::<S>(n, sum), splat(simd, 0.0));
     let cos_squared = along * along / max::<S>(squared, splat(simd, SMALLEST));
-    let s = half_beta.of(simd, cos_squared);
+    let s = half_beta.raise(simd, cos_squared);
     squared.simd_gt(splat(simd, SMALLEST)).select(s, splat(simd, 0.0))
 }
 

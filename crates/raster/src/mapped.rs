@@ -44,7 +44,7 @@ impl MappedTriangle {
         let mut groups = [Slopes::default(); GROUPS];
         for number in groups_of(state) {
             let side = back && is_of_side(state, number);
-            groups[number] = slopes(numbers.map(|vertex| vertices.mapped.of(side, number, vertex)));
+            groups[number] = slopes(numbers.map(|vertex| vertices.mapped.at(side, number, vertex)));
         }
         Self::with(&groups, first, planes)
     }
@@ -66,7 +66,7 @@ impl MappedTriangle {
                 for (corner, weight) in triangle.into_iter().zip(weights) {
                     let vertex = usize::from(corner);
                     let w = 1.0 / f64::from(vertices.inverse_w[vertex]);
-                    let over_w = vertices.mapped.of(side, number, vertex);
+                    let over_w = vertices.mapped.at(side, number, vertex);
                     for (sum, number) in sum.iter_mut().zip(over_w) {
                         *sum += weight * w * f64::from(*number);
                     }

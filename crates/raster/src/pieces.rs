@@ -121,7 +121,7 @@ impl Pieces {
             let (index, reaches, available) = (cuts.len(), u64::from(end), indices.len() as u64);
             return Err(RasterError::Reference { what: "cut", index, field: "indices", reaches, available });
         }
-        pieces.extent = PieceExtent::of(positions.iter().copied());
+        pieces.extent = PieceExtent::around(positions.iter().copied());
         Ok(pieces)
     }
 
@@ -153,7 +153,7 @@ impl Pieces {
     }
 
     /// The pieces of a range of indices; `None` if it splits a run.
-    pub(crate) fn of(&self, indices: &Range<u32>) -> Option<Range<usize>> {
+    pub(crate) fn pieces_in(&self, indices: &Range<u32>) -> Option<Range<usize>> {
         if indices.start > indices.end || indices.end > self.index_count {
             return None;
         }
@@ -324,7 +324,7 @@ impl<'a> Builder<'a> {
                 to.extend(used.map(|vertex| list[vertex][axis]));
             }
         }
-        let extent = PieceExtent::of(self.used.iter().map(|&vertex| self.positions[vertex as usize]));
+        let extent = PieceExtent::around(self.used.iter().map(|&vertex| self.positions[vertex as usize]));
         let end = pieces.triangles.len() as u32;
         reserve(&mut pieces.each, 1, "a mesh's pieces")?;
         pieces.each.push(Piece {
@@ -342,8 +342,8 @@ impl<'a> Builder<'a> {
 }
 
 impl PieceExtent {
-    /// That of some points. Lengths are rounded up.
-    pub(crate) fn of(points: impl Iterator<Item = [f32; 3]> + Clone) -> Self {
+    /// The extent of some points. Lengths are rounded up.
+    pub(crate) fn around(points: impl Iterator<Item = [f32; 3]> + Clone) -> Self {
         let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         for point in points.clone() {
             for axis in 0..3 {

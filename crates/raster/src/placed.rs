@@ -190,7 +190,7 @@ mod tests {
                 [a, b, c, to[row] - away * (a * middle[0] + b * middle[1] + c * middle[2])]
             });
             let placed = placed(rows);
-            let tiles = placed.tiles(&PieceExtent::of(points.iter().copied()));
+            let tiles = placed.tiles(&PieceExtent::around(points.iter().copied()));
             let at_hand = tiles.filter(TileBox::is_at_hand);
             for point in points {
                 let at = tile_of(&placed, point);
@@ -211,7 +211,7 @@ mod tests {
             let rows = [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, z]];
             let plate = [[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.1, 0.1, 0.0], [-0.1, 0.1, 0.0]];
             let placed = PlacedInstance { near, ..placed(rows) };
-            placed.tiles(&PieceExtent::of(plate.into_iter())).is_some_and(|tiles| tiles.is_at_hand())
+            placed.tiles(&PieceExtent::around(plate.into_iter())).is_some_and(|tiles| tiles.is_at_hand())
         };
         assert!(at_hand(0.3, -4.0, 0.1));
         assert!(!at_hand(3.95, -4.0, 0.1), "part of it is beside the picture");
@@ -224,7 +224,7 @@ mod tests {
     fn boxes_leave_out_tiles_that_spheres_meet() {
         let placed = placed([[1.0, 0.0, 0.0, 0.02], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -4.0]]);
         let plate = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
-        let extent = PieceExtent::of(plate.into_iter());
+        let extent = PieceExtent::around(plate.into_iter());
         assert_eq!(placed.tiles(&extent).map(|of| of.tiles), Some([10, 10, 2, 8]));
         let ball = PieceExtent { half: [extent.radius; 3], ..extent };
         assert_eq!(placed.tiles(&ball).map(|TileBox { tiles: [left, right, ..], .. }| right - left), Some(11));

@@ -83,7 +83,7 @@ pub(crate) enum Power<S: Simd> {
 impl<S: Simd> Power<S> {
     /// `max(x, 0)` raised to it.
     #[inline(always)]
-    pub(crate) fn of(self, simd: S, x: F<S>) -> F<S> {
+    pub(crate) fn raise(self, simd: S, x: F<S>) -> F<S> {
         match self {
             Self::One(exponent) => power(simd, x, exponent),
             Self::Each(exponents) => powers(simd, x, exponents),

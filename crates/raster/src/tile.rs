@@ -96,7 +96,7 @@ impl Worker {
                 self.shade(simd, &look, last[1]);
                 shaded = true;
             }
-            let work = Work::of(scene, number, last, (first, blend));
+            let work = Work::new(scene, number, last, (first, blend));
             look.painted |= work.state.shades_apart();
             let shows = simd.vectorize(
                 #[inline(always)]
@@ -432,7 +432,7 @@ fn draw<S: Simd>(
     work: &Work,
 ) {
     let mapped = (nearest.mapped_triangles.len() as i32).checked_sub(1);
-    let (shader, kept) = (shader_of(work.job.state, back), Kept::of(look, work.state, back, mapped));
+    let (shader, kept) = (shader_of(work.job.state, back), Kept::new(look, work.state, back, mapped));
     match look.pass.samples {
         _ if work.blend => nearest.blend(simd, edges, planes, shader, look),
         Samples::One => nearest.cover_strips(simd, edges, planes, shader, kept),
@@ -441,7 +441,7 @@ fn draw<S: Simd>(
 }
 
 impl<'a> Work<'a> {
-    fn of(scene: &Scene<'a>, number: u32, last: [i32; 2], (first, blend): (Option<Job>, bool)) -> Self {
+    fn new(scene: &Scene<'a>, number: u32, last: [i32; 2], (first, blend): (Option<Job>, bool)) -> Self {
         let Scene { pass, bins, .. } = *scene;
         let job = bins.jobs[number as usize];
         let draw = &pass.draws[job.draw as usize];

@@ -20,7 +20,7 @@ pub enum Adapter {
 
 impl Adapter {
     /// The adapter that draws the frames of this world; `None` while none is open.
-    pub fn of(world: &World) -> Option<Self> {
+    pub fn from_world(world: &World) -> Option<Self> {
         #[cfg(feature = "wgpu")]
         if let Some(gpu) = world.get_resource::<Gpu>() {
             return Some(Self::Gpu(gpu.clone()));

@@ -11,11 +11,11 @@ mod cpu;
 #[cfg(feature = "wgpu")]
 mod gpu;
 mod headless;
+mod logged;
 mod pending;
 mod picture;
 mod plugin;
 mod replaced;
-mod told;
 
 pub use adapter::Adapter;
 pub use choice::AdapterChoice;

@@ -6,9 +6,9 @@ use crate::cpu::device::Cpu;
 #[cfg(feature = "wgpu")]
 use crate::gpu::{self, device::Gpu};
 use crate::headless::{self, Headless};
+use crate::logged::{self, Logged};
 use crate::pending::DrawnIn;
 use crate::replaced;
-use crate::told::{self, Told};
 use bevy_app::{App, Plugin, PostUpdate};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
@@ -46,7 +46,7 @@ impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins(FramePlugin { schedule: self.schedule })
             .insert_resource(DrawnIn(self.schedule))
-            .init_resource::<Told>()
+            .init_resource::<Logged>()
             .init_resource::<AdapterChoice>()
             .init_resource::<Headless>()
             .add_systems(
@@ -54,7 +54,11 @@ impl Plugin for RenderPlugin {
                 (
                     headless::measure.in_set(RenderSet::View).before(ReadCamera),
                     (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
-                    (told::tell_errors, told::tell_of_opacity, told::tell_why_empty.run_if(told::may_be_empty))
+                    (
+                        logged::log_errors,
+                        logged::log_ineffective_opacity,
+                        logged::log_why_empty.run_if(logged::may_be_empty),
+                    )
                         .chain()
                         .after(RenderSet::Deliver),
                 ),

@@ -62,7 +62,7 @@ pub fn frame(app: &mut App) -> Result<(), RenderError> {
     if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
         return Err(error.clone());
     }
-    Adapter::of(world).ok_or(RenderError::NoAdapter)?.finish()
+    Adapter::from_world(world).ok_or(RenderError::NoAdapter)?.finish()
 }
 
 /// Runs frames until three in a row are alike, since the first ones build pipelines and upload meshes: the number of

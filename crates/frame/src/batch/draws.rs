@@ -74,7 +74,7 @@ impl Draws {
     }
 
     /// The draws of a group.
-    pub fn of(&self, group: &DrawGroup) -> &[IndexedDraw] {
+    pub fn in_group(&self, group: &DrawGroup) -> &[IndexedDraw] {
         self.each.get(group.draws.clone()).unwrap_or_default()
     }
 
@@ -89,7 +89,7 @@ impl Draws {
 
     /// The draws and triangles of some groups.
     pub fn counts(&self, groups: &[DrawGroup]) -> PassCounts {
-        let draws = || groups.iter().flat_map(|group| self.of(group));
+        let draws = || groups.iter().flat_map(|group| self.in_group(group));
         PassCounts { draws: draws().count() as u32, triangles: draws().map(IndexedDraw::triangles).sum() }
     }
 }

@@ -192,12 +192,12 @@ impl Reflecting<'_> {
 pub(super) fn wrong_paint((_, maps, mask, solid): PaintOf) -> Option<InvalidValue> {
     let of_maps = maps.and_then(Maps::wrong).map(|WrongMap { kind, field, value, expected }| {
         let field = format!("{}.{field}", kind.name());
-        Fields::of("Maps").error(&field, Problem::Number { value, expected })
+        Fields::for_owner("Maps").error(&field, Problem::Number { value, expected })
     });
     let of_solid = || {
         let wrong = solid.and_then(SolidTexture::wrong)?;
         let problem = Problem::Number { value: wrong.value, expected: wrong.expected };
-        Some(Fields::of("SolidTexture").error(wrong.field, problem))
+        Some(Fields::for_owner("SolidTexture").error(wrong.field, problem))
     };
     of_maps.or_else(|| mask.and_then(|mask| mask.validate().err())).or_else(of_solid)
 }

@@ -117,7 +117,7 @@ impl<T: Real> Receiver<T> {
         Self {
             center: patch.center,
             radius: patch.radius,
-            coincident: T::of(COINCIDENT.into()) * (length(patch.center) + patch.radius) * (T::one() + slack()),
+            coincident: T::from_f64(COINCIDENT.into()) * (length(patch.center) + patch.radius) * (T::one() + slack()),
             half_thickness: patch.half_thickness,
             normals,
             both_sides: patch.faces == Faces::Both,
@@ -145,7 +145,7 @@ impl<T: Real> Receiver<T> {
         }
         let arrival = arrival();
         // A product that left the number range is small, not 0.
-        let weight = weight(&arrival).max(T::min_positive_value()) * (T::one() + T::of(MARGIN));
+        let weight = weight(&arrival).max(T::min_positive_value()) * (T::one() + T::from_f64(MARGIN));
         let Arrival { l, rise, .. } = arrival;
         if lit.ambient {
             bounds.ambient = scale(mul(self.ka, colors.la), weight);
@@ -163,7 +163,7 @@ impl<T: Real> Receiver<T> {
     /// The sphere that a light's range overlaps if the light adds anything: that of the patch, widened by the distance
     /// within which a light may count as being at a point of it, and as much again for the rounding of positions.
     pub(super) fn search_sphere(&self) -> ([T; 3], T) {
-        (self.center, (self.radius + self.coincident * T::of(2.0)) * (T::one() + slack()))
+        (self.center, (self.radius + self.coincident * T::from_f64(2.0)) * (T::one() + slack()))
     }
 
     // The terms that may be above 0 are found by signs alone: no power, and seldom a root. That is the first step of a
@@ -180,7 +180,7 @@ impl<T: Real> Receiver<T> {
     pub(crate) fn offset_to(&self, position: [T; 3]) -> Option<Offset<T>> {
         let vector = sub(position, self.center);
         let square = dot(vector, vector);
-        if !(square > T::min_positive_value() / T::epsilon() && square < T::max_value() * T::of(0.25)) {
+        if !(square > T::min_positive_value() / T::epsilon() && square < T::max_value() * T::from_f64(0.25)) {
             return None;
         }
         let blur = self.coincident + slack::<T>() * (norm1(vector) + self.radius);
@@ -213,7 +213,7 @@ impl<T: Real> Receiver<T> {
     #[inline]
     pub(crate) fn is_beyond(&self, range: T, offset: &Offset<T>) -> bool {
         let end = range.max(self.coincident) + self.radius;
-        offset.square * (T::one() - slack::<T>() * T::of(4.0)) > end * end
+        offset.square * (T::one() - slack::<T>() * T::from_f64(4.0)) > end * end
     }
 
     /// Whether the range of a light ends before the slab of the patch, or its cone passes the patch by.
@@ -289,7 +289,7 @@ impl<T: Real> Receiver<T> {
     fn slab(&self, offset: [T; 3], square: T, distance: T) -> (T, Angle<T>) {
         let k = self.normals.axis;
         // Squares beyond the number range say nothing.
-        if !(self.is_flat() && square < T::max_value() * T::of(0.25)) {
+        if !(self.is_flat() && square < T::max_value() * T::from_f64(0.25)) {
             return (T::zero(), Angle::zero());
         }
         let height = dot(offset, k);
@@ -351,7 +351,7 @@ impl<T: Real> Receiver<T> {
 
     /// The bounds of a light that brings at most this colour to the diffuse term, and nothing else.
     pub(crate) fn diffuse_bounds(&self, color: [T; 3]) -> TermBounds<T> {
-        let diffuse = scale(mul(self.kd, color), T::one() + T::of(MARGIN));
+        let diffuse = scale(mul(self.kd, color), T::one() + T::from_f64(MARGIN));
         TermBounds { diffuse, ..TermBounds::zero() }
     }
 

@@ -39,7 +39,7 @@ impl Attenuation {
     /// # Errors
     /// A constant is negative or not finite, or all three are 0.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        let fields = Fields::of("Attenuation");
+        let fields = Fields::for_owner("Attenuation");
         for (name, value) in [("constant", self.constant), ("linear", self.linear), ("quadratic", self.quadratic)] {
             fields.non_negative(name, value)?;
         }
@@ -81,7 +81,7 @@ impl Cone {
 
     /// This cone around a unit direction, in which the light travels; `None` if the cutoff is π.
     pub fn along<T: Real>(&self, direction: [T; 3]) -> Option<ConeTerms<T>> {
-        let real = |value: f32| T::of(value.into());
+        let real = |value: f32| T::from_f64(value.into());
         (!self.is_none()).then(|| ConeTerms {
             direction,
             cos_cutoff: real(self.cutoff).cosine(),
@@ -101,7 +101,7 @@ impl Cone {
     /// The cutoff is neither in [0, π/2] nor π; the inner angle is not in [0, cutoff]; the exponent is negative or not
     /// finite.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.validate_as(Fields::of("Cone"))
+        self.validate_as(Fields::for_owner("Cone"))
     }
 
     pub(super) fn validate_as(&self, fields: Fields) -> Result<(), InvalidValue> {
@@ -160,7 +160,7 @@ impl<T: Real> ConeTerms<T> {
 
 /// A number in another number type, rounded once.
 pub(crate) fn number<T: Real, U: Real>(value: T) -> U {
-    U::of(value.to_f64().unwrap_or(f64::NAN))
+    U::from_f64(value.to_f64().unwrap_or(f64::NAN))
 }
 
 /// `1 / max(a + b·d + c·d², 10⁻⁶)` for the constants `[a, b, c]` and the distance d, all 0 or more.
@@ -169,7 +169,7 @@ pub(crate) fn number<T: Real, U: Real>(value: T) -> U {
 pub fn attenuation<T: Real>([a, b, c]: [T; 3], d: T) -> T {
     // Horner's form, and a finite d, keep 0·∞ out: with c = 0 and a huge d, c·d² would be NaN.
     let d = d.min(T::max_value());
-    (a + d * (b + c * d)).max(T::of(f64::from(ATTENUATION_MAX)).recip()).recip()
+    (a + d * (b + c * d)).max(T::from_f64(f64::from(ATTENUATION_MAX)).recip()).recip()
 }
 
 /// `clamp(1 − (d/R)⁴, 0, 1)²` for a distance d and a range R > 0 (`KHR_lights_punctual`).

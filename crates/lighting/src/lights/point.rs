@@ -116,7 +116,7 @@ impl PointLight {
     /// # Errors
     /// The first field that is outside the range it documents.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.validate_as(Fields::of("PointLight"))
+        self.validate_as(Fields::for_owner("PointLight"))
     }
 
     pub(super) fn validate_as(&self, fields: Fields) -> Result<(), InvalidValue> {
@@ -185,10 +185,10 @@ impl<T: Real> Point<T> {
     /// Its direction and strength at a point. If the light is at the point itself ([`COINCIDENT`]) l is n and the
     /// distance 0.
     pub(super) fn arriving_at(&self, surface: &ShadedPoint<T>) -> Incidence<T> {
-        let least = T::of(GRAZING.into());
+        let least = T::from_f64(GRAZING.into());
         let from_eye = length(surface.position);
         let (l, d, grazing) = match toward(surface.position, self.position) {
-            (Some(l), d) if d > T::of(COINCIDENT.into()) * from_eye => (l, d, least + least * (from_eye / d)),
+            (Some(l), d) if d > T::from_f64(COINCIDENT.into()) * from_eye => (l, d, least + least * (from_eye / d)),
             _ => (surface.normal, T::zero(), T::zero()),
         };
         let window = self.range.map_or(T::one(), |range| range_window(d, range));

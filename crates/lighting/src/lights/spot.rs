@@ -104,7 +104,7 @@ impl SpotLight {
     /// # Errors
     /// The first field that is outside the range it documents.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        let fields = Fields::of("SpotLight");
+        let fields = Fields::for_owner("SpotLight");
         self.light.validate_as(fields.inside("light."))?;
         self.cone.validate_as(fields.inside("cone."))
     }

@@ -192,7 +192,7 @@ impl Case {
     }
 
     fn light<T: Real>(&self) -> Light<T> {
-        let [place, direction] = [self.place, self.direction].map(|a| a.map(|x| T::of(x.into())));
+        let [place, direction] = [self.place, self.direction].map(|a| a.map(|x| T::from_f64(x.into())));
         let PointLight { ambient, diffuse, specular, .. } = self.light;
         match self.kind {
             Kind::Point => self.light.at(place),
@@ -202,7 +202,7 @@ impl Case {
     }
 
     fn evaluated<T: Real>(&self) -> [f64; 3] {
-        let of = |a: [f32; 3]| a.map(|x| T::of(x.into()));
+        let of = |a: [f32; 3]| a.map(|x| T::from_f64(x.into()));
         let unit = |a: [f32; 3]| normalize(of(a)).expect("a direction");
         let surface = ShadedPoint { position: of(self.position), normal: unit(self.normal) };
         let view = match self.view {
@@ -217,7 +217,7 @@ impl Case {
     /// Fails unless the evaluation in `T` is a color, and one that `rounding` explains.
     fn check<T: Real>(&self, rounding: Rounding) -> Result<(), TestCaseError> {
         let got = self.evaluated::<T>();
-        for (value, exact) in got.into_iter().zip(rounding.of(self)) {
+        for (value, exact) in got.into_iter().zip(rounding.intensity(self)) {
             prop_assert!(value.is_finite() && value >= 0.0, "{got:?}");
             prop_assert!((exact.low..=exact.high).contains(&value), "{value:e} is not in {exact:?}");
         }
@@ -261,7 +261,7 @@ impl Between {
 
 impl Rounding {
     /// I of a case.
-    fn of(self, case: &Case) -> [Between; 3] {
+    fn intensity(self, case: &Case) -> [Between; 3] {
         let unit = |a: [f32; 3]| normalize(to_f64(a)).expect("a direction");
         let n = unit(case.normal);
         let p = to_f64(case.position);

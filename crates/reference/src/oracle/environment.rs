@@ -57,7 +57,7 @@ impl OracleEnvironment {
 }
 
 fn check(light: &EnvironmentLight) -> Result<(), InvalidValue> {
-    light
-        .wrong()
-        .map_or(Ok(()), |wrong| Fields::of("EnvironmentLight").number(wrong.field, wrong.value, false, wrong.expected))
+    light.wrong().map_or(Ok(()), |wrong| {
+        Fields::for_owner("EnvironmentLight").number(wrong.field, wrong.value, false, wrong.expected)
+    })
 }

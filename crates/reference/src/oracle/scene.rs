@@ -220,14 +220,14 @@ fn solid(
 fn check_maps(maps: &Maps) -> Result<(), InvalidValue> {
     maps.wrong().map_or(Ok(()), |wrong| {
         let field = format!("{}.{}", wrong.kind.name(), wrong.field);
-        Fields::of("Maps").number(&field, wrong.value, false, wrong.expected)
+        Fields::for_owner("Maps").number(&field, wrong.value, false, wrong.expected)
     })
 }
 
 fn check_solid(solid: &SolidTexture) -> Result<(), InvalidValue> {
-    solid
-        .wrong()
-        .map_or(Ok(()), |wrong| Fields::of("SolidTexture").number(wrong.field, wrong.value, false, wrong.expected))
+    solid.wrong().map_or(Ok(()), |wrong| {
+        Fields::for_owner("SolidTexture").number(wrong.field, wrong.value, false, wrong.expected)
+    })
 }
 
 fn bad_transform(entity: Entity, name: Option<&Name>, transform: &GlobalTransform) -> OracleError {

@@ -83,7 +83,7 @@ impl PassLists {
             let of_set = lit.table.maps.get((maps as usize).wrapping_sub(1)).filter(|_| key.is_mapped());
             let maps = of_set.map(|of| self.draw_maps(&key, of, maps));
             let call = DrawCall { mesh: self.meshes.len() as u32 - 1, maps, ..call(&key) };
-            for draw in batches.draws.of(group) {
+            for draw in batches.draws.in_group(group) {
                 let IndexedDraw { indices, instances } = draw.clone();
                 self.draws.push(DrawCall { indices, instances, ..call.clone() });
             }

@@ -170,7 +170,7 @@ impl Gpu {
 
     /// The provoking vertex of triangles.
     pub(crate) fn provoking_vertex(&self) -> ProvokingVertex {
-        ProvokingVertex::of(self.adapter.get_info().backend)
+        ProvokingVertex::for_backend(self.adapter.get_info().backend)
     }
 
     /// Whether the adapter draws on the CPU.

@@ -10,7 +10,7 @@ pub(crate) enum ProvokingVertex {
 }
 
 impl ProvokingVertex {
-    pub(crate) fn of(backend: wgpu::Backend) -> Self {
+    pub(crate) fn for_backend(backend: wgpu::Backend) -> Self {
         if backend == wgpu::Backend::Gl { Self::Last } else { Self::First }
     }
 
@@ -38,7 +38,7 @@ mod tests {
     fn opengl_finds_the_first_vertex_last() {
         let placed = |backend| {
             let mut corners = [4, 5, 6, 9, 8, 7];
-            ProvokingVertex::of(backend).place(&mut corners);
+            ProvokingVertex::for_backend(backend).place(&mut corners);
             corners
         };
         assert_eq!(placed(wgpu::Backend::Vulkan), [4, 5, 6, 9, 8, 7]);

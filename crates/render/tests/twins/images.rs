@@ -145,7 +145,7 @@ impl Look {
     }
 
     /// Of [`bits`](Self::bits).
-    pub(crate) fn of(bits: f32) -> Self {
+    pub(crate) fn from_bits(bits: f32) -> Self {
         let field = |place: u32| bits as usize >> (2 * place) & 3;
         Self {
             magnify: field(0),

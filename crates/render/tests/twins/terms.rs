@@ -69,7 +69,7 @@ struct Lit {
 }
 
 impl Lit {
-    fn of(x: &[f32]) -> Self {
+    fn from_input(x: &[f32]) -> Self {
         let arriving = Irradiance { ambient: wide(x), diffuse: wide(&x[3..]), specular: wide(&x[6..]) };
         let (kd, ks, ka) = (wide(&x[12..]), wide(&x[15..]), wide(&x[18..]));
         Self { arriving, material: Coefficients { ka, kd, ks, ke: [0.0; 3], shininess: 1.0 }, color: wide(&x[25..]) }
@@ -166,9 +166,9 @@ fn mapped_rows() -> Vec<Row> {
         allowed: exactly,
     };
     vec![
-        parts_row(NOTHING, |x| Lit::of(x).parts()),
-        parts_row(NO_AMBIENT, |x| Lit::of(x).only([0.0, 1.0, 1.0]).parts()),
-        parts_row(NO_SPECULAR, |x| Lit::of(x).only([1.0, 1.0, 0.0]).parts()),
+        parts_row(NOTHING, |x| Lit::from_input(x).parts()),
+        parts_row(NO_AMBIENT, |x| Lit::from_input(x).only([0.0, 1.0, 1.0]).parts()),
+        parts_row(NO_SPECULAR, |x| Lit::from_input(x).only([1.0, 1.0, 0.0]).parts()),
         Row {
             function: "all_parts",
             call: "all_parts(Parts(v(i, 0), v(i, 3), v(i, 6)))",

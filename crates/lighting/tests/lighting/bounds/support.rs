@@ -33,7 +33,7 @@ pub(crate) enum Kind {
 
 impl Source {
     pub(crate) fn light<T: Real>(&self) -> Light<T> {
-        let [position, direction] = [self.position, self.direction].map(|a| a.map(|x| T::of(f64::from(x))));
+        let [position, direction] = [self.position, self.direction].map(|a| a.map(|x| T::from_f64(f64::from(x))));
         let PointLight { ambient, diffuse, specular, .. } = self.light;
         match self.kind {
             Kind::Point => self.light.at(position),
@@ -60,19 +60,21 @@ pub(crate) struct Scene {
 
 impl Scene {
     pub(crate) fn receiver<T: Real>(&self) -> Receiver<T> {
-        let of = |a: [f32; 3]| a.map(|x| T::of(f64::from(x)));
+        let of = |a: [f32; 3]| a.map(|x| T::from_f64(f64::from(x)));
         let patch = Patch {
             center: of(self.center),
-            radius: T::of(f64::from(self.radius)),
-            normals: self.cone.map(|(axis, angle)| NormalCone { axis: of(axis), half_angle: T::of(f64::from(angle)) }),
-            half_thickness: T::of(f64::from(self.radius * self.thickness)),
+            radius: T::from_f64(f64::from(self.radius)),
+            normals: self
+                .cone
+                .map(|(axis, angle)| NormalCone { axis: of(axis), half_angle: T::from_f64(f64::from(angle)) }),
+            half_thickness: T::from_f64(f64::from(self.radius * self.thickness)),
             faces: self.faces,
         };
         Receiver::new(&patch, &Coefficients::from(&self.material), &self.view(), self.reflectance)
     }
 
     fn view<T: Real>(&self) -> Eye<T> {
-        let of = |a: [f32; 3]| a.map(|x| T::of(f64::from(x)));
+        let of = |a: [f32; 3]| a.map(|x| T::from_f64(f64::from(x)));
         match self.view {
             Eye::Local(eye) => Eye::Local(of(eye)),
             Eye::Infinite(v) => Eye::Infinite(normalize(of(v)).expect("not 0")),

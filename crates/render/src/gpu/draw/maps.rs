@@ -33,7 +33,7 @@ enum Part {
 }
 
 impl Part {
-    fn of(self, pyramid: &Pyramid) -> &Pyramid {
+    fn select(self, pyramid: &Pyramid) -> &Pyramid {
         match self {
             Self::Texels => pyramid,
             Self::Slopes => &pyramid.moments()[0],
@@ -142,7 +142,7 @@ impl MapTextures {
             };
             let (view, sent) = self.view(gpu, of, pyramid, part)?;
             let width = view.texture().width();
-            record.each[slot] = PlacingRecord::new(of.rows(), of.amount, (part.of(pyramid), of.form), width);
+            record.each[slot] = PlacingRecord::new(of.rows(), of.amount, (part.select(pyramid), of.form), width);
             bytes += sent;
             views.push(view);
         }
@@ -175,7 +175,7 @@ impl MapTextures {
         if let Some(there) = self.textures.get(&key).filter(|there| there.pyramid.is_same(pyramid)) {
             return Ok((there.view.clone(), 0));
         }
-        let texels = stored(part.of(pyramid), of.form);
+        let texels = stored(part.select(pyramid), of.form);
         let what = match of.form {
             ImageForm::Pyramid => "an image with its pyramid",
             ImageForm::Ripmap => "an image with its ripmap",

@@ -132,7 +132,7 @@ impl Buffers {
     pub(crate) fn bindings(&self, state: &DrawState) -> Option<(&wgpu::BindGroup, u32)> {
         let record = state.record * RECORD_BYTES as u32;
         let Groups { few, one, all } = &self.groups;
-        let (group, offset) = match Text::of(&state.key).lights {
+        let (group, offset) = match Text::from_key(&state.key).lights {
             LightText::Few => (few, record),
             LightText::Listed if state.key.per_instance => (all, 0),
             LightText::Listed => (one, record),
@@ -150,7 +150,7 @@ impl Buffers {
         let view = ViewRecord::from(view);
         let all_lights = lit.lists.sent.records.as_slice();
         let has_lists =
-            batches.draws.groups().iter().any(|group| Text::of(&group.state.key).lights == LightText::Listed);
+            batches.draws.groups().iter().any(|group| Text::from_key(&group.state.key).lights == LightText::Listed);
         let listed = if has_lists { all_lights } else { &[] };
         let few = if all_lights.len() <= COUNTED_LIGHTS as usize { all_lights } else { &[] };
         let sent = [

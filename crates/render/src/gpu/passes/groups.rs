@@ -8,7 +8,8 @@ use halfway_frame::passes::{self, Phase};
 pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &ScenePasses<'_>, phase: Phase) -> u32 {
     let ScenePasses { batches, meshes, pipelines, buffers, .. } = scene;
     let groups = passes::groups(batches, phase);
-    let count = |groups: &[DrawGroup]| groups.iter().map(|group| batches.draws.of(group).len()).sum::<usize>() as u32;
+    let count =
+        |groups: &[DrawGroup]| groups.iter().map(|group| batches.draws.in_group(group).len()).sum::<usize>() as u32;
     let Some(instances) = buffers.instances() else { return count(groups) };
     pass.set_vertex_buffer(0, instances.slice(..));
     let (mut last, mut left_out) = (None, 0);
@@ -45,7 +46,7 @@ pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &ScenePasses<'_>, p
             pass.set_bind_group(2, surroundings, &[]);
         }
         pass.set_index_buffer(mesh.indices.slice(..), mesh.index_format);
-        for draw in batches.draws.of(group) {
+        for draw in batches.draws.in_group(group) {
             pass.draw_indexed(draw.indices.clone(), 0, draw.instances.clone());
         }
         left_out -= count(std::slice::from_ref(group));

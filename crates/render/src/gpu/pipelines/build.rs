@@ -24,7 +24,7 @@ const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3
 impl Shader {
     pub(crate) fn build(&self, gpu: &Gpu, pipeline: PipelineKey) -> wgpu::RenderPipeline {
         let PipelineKey { draw: key, output } = pipeline;
-        let text = Text::of(&key);
+        let text = Text::from_key(&key);
         let buffer = |used: bool, attributes, stride| {
             let step_mode = wgpu::VertexStepMode::Vertex;
             used.then_some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes })

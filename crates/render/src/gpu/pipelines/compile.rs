@@ -34,7 +34,7 @@ pub(crate) fn build(gpu: &Gpu, shaders: &Shaders, key: PipelineKey) -> Result<wg
     use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
     // Error scopes are per thread, so that two building threads do not mix their errors.
     let scopes = [Validation, OutOfMemory, Internal].map(|filter| gpu.device.push_error_scope(filter));
-    let pipeline = shaders.with(gpu, Text::of(&key.draw), |shader| shader.build(gpu, key));
+    let pipeline = shaders.with(gpu, Text::from_key(&key.draw), |shader| shader.build(gpu, key));
     // Popped in reverse order, and all of them.
     let error = scopes.into_iter().rev().filter_map(|scope| block_on(scope.pop())).last();
     error.map_or(Ok(pipeline), |error| Err(error.to_string()))
@@ -57,11 +57,11 @@ impl Builder {
     /// `None` if the system refuses a thread.
     pub(crate) fn start(gpu: &Gpu, shaders: &Arc<Shaders>) -> Option<Self> {
         let (gpu, shaders) = (gpu.clone(), Arc::clone(shaders));
-        Self::of(move |key| build(&gpu, &shaders, key))
+        Self::with_build(move |key| build(&gpu, &shaders, key))
     }
 
     /// A thread that builds with this function; `None` if the system refuses one.
-    pub(crate) fn of(
+    pub(crate) fn with_build(
         build: impl Fn(PipelineKey) -> Result<wgpu::RenderPipeline, String> + Send + 'static,
     ) -> Option<Self> {
         let (wanted, wishes) = channel();
