@@ -73,7 +73,7 @@ fn scene(
 
     *ambient = GlobalAmbient(LinearRgba::rgb(0.85, 0.9, 1.0));
     commands.spawn((
-        Camera { fov_y: 0.5, samples: Samples::Four, background: LinearRgba::rgb(0.4, 0.45, 0.5), ..Camera::default() },
+        Camera { samples: Samples::Four, background: LinearRgba::rgb(0.4, 0.45, 0.5), ..Camera::perspective(0.5) },
         Transform::from_xyz(0.0, 3.6, 7.4).looking_at(Vec3::new(0.0, 0.75, 0.0), Vec3::Y),
     ));
     let sun = DirectionalLight { diffuse: LinearRgba::rgb(0.25, 0.22, 0.18), ..DirectionalLight::white() };

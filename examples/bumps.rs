@@ -95,7 +95,7 @@ fn look(world: &mut World, fov_y: f32) {
     let sun = DirectionalLight::white();
     world.spawn((sun, Transform::from_xyz(-1.0, 0.9, 0.8).looking_at(Vec3::ZERO, Vec3::Y)));
     world.spawn((
-        Camera { fov_y, background: LinearRgba::rgb(0.02, 0.03, 0.04), ..Camera::default() },
+        Camera { background: LinearRgba::rgb(0.02, 0.03, 0.04), ..Camera::perspective(fov_y) },
         Transform::from_xyz(0.0, 0.0, 12.0),
     ));
 }

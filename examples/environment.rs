@@ -56,7 +56,7 @@ fn scene(
     let cube = Environment::from_fn(EnvironmentShape::Cube, 768, sky)?;
     commands.spawn(EnvironmentLight::from(environments.add(EnvironmentMap::new(&cube)?)));
     commands.spawn((
-        Camera { fov_y: 0.6, samples: Samples::Four, ..Camera::default() },
+        Camera { samples: Samples::Four, ..Camera::perspective(0.6) },
         Transform::from_xyz(0.0, 0.0, 10.0).looking_at(Vec3::new(0.0, 0.35, 0.0), Vec3::Y),
     ));
     let ball = meshes.add(UvSphere::new(0.95, 96, 48));

@@ -104,7 +104,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, parts: Res<Pa
     let mut headlight = SpotLight::white(0.1);
     headlight.cone.inner = Some(0.0);
     headlight.light = PointLight { attenuation: Attenuation::NONE, ..PointLight::new(LinearRgba::WHITE * 0.7) };
-    let camera = Camera { fov_y: 0.52, samples: Samples::Four, ..Camera::default() };
+    let camera = Camera { samples: Samples::Four, ..Camera::perspective(0.52) };
     let eye = at(0.0, 14.0, 18.0).looking_at(Vec3::new(0.0, 0.5, -0.6), Vec3::Y);
     commands.spawn((camera, eye, children![headlight]));
 

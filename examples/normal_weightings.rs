@@ -37,7 +37,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
         commands.spawn((light, Transform::from_translation(from).looking_at(Vec3::ZERO, Vec3::Y)));
     }
     commands.spawn((
-        Camera { fov_y: 0.19, samples: Samples::Four, background: LinearRgba::WHITE * 0.02, ..Camera::default() },
+        Camera { samples: Samples::Four, background: LinearRgba::WHITE * 0.02, ..Camera::perspective(0.19) },
         Transform::from_xyz(0.0, 0.0, 40.0),
     ));
 }

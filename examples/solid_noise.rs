@@ -93,12 +93,7 @@ fn solid(kind: SolidKind, colors: [[f32; 3]; 2], place: Mat4) -> SolidTexture {
 fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut ambient: ResMut<GlobalAmbient>) -> Result {
     *ambient = GlobalAmbient(LinearRgba::rgb(0.2, 0.23, 0.28));
     commands.spawn((
-        Camera {
-            fov_y: 0.6,
-            samples: Samples::Four,
-            background: LinearRgba::rgb(0.36, 0.45, 0.58),
-            ..Camera::default()
-        },
+        Camera { samples: Samples::Four, background: LinearRgba::rgb(0.36, 0.45, 0.58), ..Camera::perspective(0.6) },
         Transform::from_xyz(0.6, 3.1, 8.8).looking_at(Vec3::new(0.1, 1.05, 0.0), Vec3::Y),
     ));
     commands.spawn((

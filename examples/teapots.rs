@@ -43,12 +43,11 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
     commands.spawn((
         Camera {
             // From far away, so that every teapot shows the same side.
-            fov_y: 0.185,
             background: LinearRgba::rgb(0.28, 0.3, 0.34),
             samples: Samples::Four,
             // The figures were chosen for screens that show intensities as they are.
             encoding: Encoding::Raw,
-            ..Camera::default()
+            ..Camera::perspective(0.185)
         },
         Transform::from_xyz(0.0, 0.0, 75.0),
     ));

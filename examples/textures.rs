@@ -50,7 +50,7 @@ fn map(texture: &Handle<Texture>, sampling: Sampling, transform: UvTransform) ->
 fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut textures: ResMut<Assets<Texture>>) -> Result {
     let texture = textures.add(Texture::from(checker()?));
     commands.spawn((
-        Camera { fov_y: 0.6, background: LinearRgba::rgb(0.02, 0.03, 0.05), ..Camera::default() },
+        Camera { background: LinearRgba::rgb(0.02, 0.03, 0.05), ..Camera::perspective(0.6) },
         Transform::from_xyz(0.0, 0.0, 10.0),
     ));
     commands.spawn((DirectionalLight::white(), Transform::from_xyz(0.3, 1.0, 0.6).looking_at(Vec3::ZERO, Vec3::Y)));

@@ -16,8 +16,8 @@ pub use bevy_transform::prelude::{GlobalTransform, Transform, TransformPlugin};
 pub use halfway_asset::{Assets, Handle};
 pub use halfway_lighting::{
     Attenuation, BackMaterial, Blend, Camera, Cone, DirectionalLight, Encoding, Faces, Frequency, GlobalAmbient,
-    HemisphereLight, Intensity, LightingPlugin, Mask, Material, PointLight, Reflectance, Samples, Shading, SpotLight,
-    Terms, Tolerance, VertexColors, ViewTolerance, Viewer, Visibility,
+    HemisphereLight, Intensity, LightingPlugin, Mask, Material, PointLight, Projection, Reflectance, Samples, Shading,
+    SpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Viewer, Visibility,
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
 pub use halfway_record::output::SavePicture;

@@ -188,7 +188,7 @@ fn ten_colours_between_two_vertices() {
     let margin = 1.0 / 16.0;
     let mut stage = Stage::new(COUNT, 1);
     let mut scene = Scene::in_eye_space();
-    let half = (0.5 * scene.camera.fov_y).tan() * 10.0;
+    let half = 0.5 * scene.camera.projection.height_at(10.0_f32);
     let [left, right] = [-1.0, 1.0].map(|side: f32| side * half * (9.0 + 2.0 * margin as f32) / 10.0);
     let corners = [[left, -1.0, -1.0], [right, -1.0, -1.0], [right, 1.0, -1.0], [left, 1.0, -1.0]];
     let [a, b] = [n1, n2].map(|n| n.as_vec3().to_array());
@@ -279,5 +279,59 @@ fn emission_does_not_depend_on_the_view() {
         let square =
             Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 9.0 * distance).with_material(glowing(0.125, 0.0, 0.0));
         assert_centre(&format!("{distance} away"), &mut stage, &Scene::in_eye_space().with(square), 0.125, 0.0);
+    }
+}
+
+/// The columns and rows that show something, and how many pixels do.
+fn silhouette(stage: &mut Stage, scene: &Scene) -> (u32, u32, usize) {
+    let picture = stage.draw(scene);
+    let shown = || picture.enumerate_pixels().filter(|(_, _, pixel)| pixel.0[0] > 0.0);
+    let extent = |of: fn((u32, u32)) -> u32| {
+        let all = || shown().map(|(x, y, _)| of((x, y)));
+        all().max().zip(all().min()).map_or(0, |(last, first)| last - first + 1)
+    };
+    (extent(|(x, _)| x), extent(|(_, y)| y), shown().count())
+}
+
+/// A sphere of a quarter of the picture's height covers π/64 of a square picture at every depth under an orthographic
+/// camera, also beside and behind it; in a perspective it shrinks.
+#[test]
+fn a_sphere_has_one_size_at_all_depths_of_an_orthographic_view() {
+    const SIDE: u32 = 160;
+    let mut stage = Stage::new(SIDE, SIDE);
+    let mut draw = |projection: Projection, depth: f32| {
+        let ball = Thing::new(UvSphere::new(1.0, 96, 48)).with_material(glowing(0.5, 0.5, 0.5));
+        let mut scene = Scene::in_eye_space().with(ball.at(Transform::from_xyz(0.3, -0.2, -depth)));
+        scene.camera.projection = projection;
+        silhouette(&mut stage, &scene)
+    };
+    let expected = std::f64::consts::PI / 64.0 * f64::from(SIDE * SIDE);
+    for depth in [-40.0, 0.0, 2.0, 9.0, 3000.0] {
+        let (width, height, pixels) = draw(Projection::orthographic(8.0).with_near(-50.0), depth);
+        assert_eq!((width, height), (SIDE / 4, SIDE / 4), "at depth {depth}");
+        assert!((pixels as f64 / expected - 1.0).abs() < 0.02, "{pixels} pixels at depth {depth}, expected {expected}");
+    }
+    let [near, far] = [5.0, 10.0].map(|depth| draw(Projection::perspective(0.8), depth).0);
+    assert!(far < near * 3 / 5, "{near} and {far} columns in a perspective");
+}
+
+/// Under an orthographic camera v is +Z at every point, for the local viewer too: a wall under light along the view
+/// shows one highlight everywhere.
+#[test]
+fn an_orthographic_view_sees_one_highlight_all_over_a_wall() {
+    let mut stage = Stage::new(9, 9);
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+        for viewer in [Viewer::Local, Viewer::Infinite] {
+            let mut scene = wall(0.0, glossy(50.0)).lit(sun(10.0));
+            scene.things[0].shading = Some(shading);
+            scene.camera.viewer = viewer;
+            scene.camera.projection = Projection::orthographic(1.5);
+            let half_angle = 5_f32.to_radians();
+            let expected = KD * 10_f32.to_radians().cos() + KS * half_angle.cos().powf(50.0);
+            for (x, y, pixel) in stage.draw(&scene).enumerate_pixels() {
+                let found = pixel.0[0];
+                assert!((found - expected).abs() < 2e-6, "{shading:?}, ({x}, {y}): {found}, expected {expected}");
+            }
+        }
     }
 }

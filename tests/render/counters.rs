@@ -282,7 +282,7 @@ fn objects_outside_the_frustum_are_not_drawn() {
         let mut scene = Scene::in_eye_space()
             .with(Thing::new(UvSphere::new(1.0, 24, 12)).at(Transform::from_translation(at)))
             .lit(Lamp::directional(directional_light(), Vec3::NEG_Z));
-        scene.camera.fov_y = std::f32::consts::FRAC_PI_2;
+        scene.camera.projection = Projection::perspective(std::f32::consts::FRAC_PI_2);
         let picture = stage.draw(&scene);
         let report = stage.report();
         assert_eq!(report.objects, 1, "{row}");

@@ -58,7 +58,7 @@ fn about_half_of_a_sphere_is_turned_away() {
     for (row, frames) in rows {
         for faces in FACES {
             let mut scene = lit(Scene::seen_from(Vec3::new(3.0, 5.0, 19.0), Vec3::ZERO));
-            scene.camera.fov_y = 0.2;
+            scene.camera.projection = Projection::perspective(0.2);
             let scene = scene.with(Thing::new(SPHERE).frames(frames.clone()).faces(faces).back(other_material()));
             let share = if faces == Faces::Both { 0.0..=0.0 } else { 0.4..=0.6 };
             assert_culled(&mut failures, &mut stage, &format!("{row}, {faces:?} faces"), &scene, share);
@@ -80,7 +80,7 @@ fn sheared_spheres_are_whole() {
     for (row, frames) in rows {
         for faces in FACES {
             let mut scene = lit(Scene::seen_from(Vec3::new(3.0, 5.0, 19.0), Vec3::ZERO));
-            scene.camera.fov_y = 0.25;
+            scene.camera.projection = Projection::perspective(0.25);
             let scene = scene.with(Thing::new(COARSE).frames(frames.clone()).faces(faces).back(other_material()));
             // Their normals spread differently from those of the mesh, so that patches that face away may be kept.
             assert_culled(&mut failures, &mut stage, &format!("{row}, {faces:?} faces"), &scene, 0.0..=0.6);
@@ -97,7 +97,7 @@ fn a_sphere_around_the_camera_shows_what_lies_ahead() {
         for target in [Vec3::NEG_Z, Vec3::new(1.0, 0.2, 0.1), Vec3::new(-0.3, -1.0, 0.4)] {
             for faces in FACES {
                 let mut scene = lit(Scene::seen_from(eye, eye + target));
-                scene.camera.near = 0.01;
+                scene.camera.projection = scene.camera.projection.with_near(0.01);
                 let thing = Thing::new(SPHERE).faces(faces).back(other_material());
                 let share = if faces == Faces::Front { 0.8..=1.0 } else { 0.2..=0.995 };
                 let row = format!("from {place} to {target}, {faces:?} faces");

@@ -161,7 +161,7 @@ fn a_shininess_of_ten_thousand_on_a_fine_mesh() {
             let mut scene = Scene::seen_from(Vec3::new(0.0, 0.0, 1.3), Vec3::ZERO)
                 .with(sphere)
                 .lit(Lamp::point(unweakened(), Vec3::new(0.03, 0.02, 1.4)));
-            scene.camera.fov_y = 0.3;
+            scene.camera.projection = Projection::perspective(0.3);
             let row = format!("{shading:?}, {reflectance:?}");
             let bars = Bars { most: FLOAT.most + rounding, worst: FLOAT.worst + rounding, ..FLOAT };
             let picture = stage.draw(&scene);

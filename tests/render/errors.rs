@@ -208,11 +208,31 @@ const VIEWS: &[Row] = &[
         },
         &["2 cameras"],
     ),
-    ("a field of view of 0", |w| edit_camera(w, |c| c.fov_y = 0.0), &["\"eye\"", "Camera.fov_y", "0.0"]),
-    ("a field of view of 180°", |w| edit_camera(w, |c| c.fov_y = 3.2), &["\"eye\"", "Camera.fov_y", "3.2"]),
-    ("a NaN field of view", |w| edit_camera(w, |c| c.fov_y = f32::NAN), &["\"eye\"", "Camera.fov_y", "NaN"]),
-    ("a near plane at the eye", |w| edit_camera(w, |c| c.near = 0.0), &["\"eye\"", "Camera.near"]),
-    ("an infinite near plane", |w| edit_camera(w, |c| c.near = f32::INFINITY), &["\"eye\"", "Camera.near"]),
+    (
+        "a field of view of 0",
+        |w| edit_camera(w, |c| c.projection = Projection::perspective(0.0)),
+        &["\"eye\"", "Camera.projection.fov_y", "0.0"],
+    ),
+    (
+        "a field of view of 180°",
+        |w| edit_camera(w, |c| c.projection = Projection::perspective(3.2)),
+        &["\"eye\"", "Camera.projection.fov_y", "3.2"],
+    ),
+    (
+        "a NaN field of view",
+        |w| edit_camera(w, |c| c.projection = Projection::perspective(f32::NAN)),
+        &["\"eye\"", "Camera.projection.fov_y", "NaN"],
+    ),
+    (
+        "a near plane at the eye",
+        |w| edit_camera(w, |c| c.projection = c.projection.with_near(0.0)),
+        &["\"eye\"", "Camera.projection.near"],
+    ),
+    (
+        "an infinite near plane",
+        |w| edit_camera(w, |c| c.projection = c.projection.with_near(f32::INFINITY)),
+        &["\"eye\"", "Camera.projection.near"],
+    ),
     ("a NaN background", |w| edit_camera(w, |c| c.background = NAN), &["\"eye\"", "Camera.background", "NaN"]),
     ("a negative background", |w| edit_camera(w, |c| c.background.red = -1.0), &["\"eye\"", "Camera.background"]),
     (

@@ -14,7 +14,7 @@ fn low_over_a_floor(height: f32, turn: f32) -> Scene {
         *transform =
             Transform::from_rotation(Quat::from_euler(EulerRot::XYZ, turn, 2.0 * turn, 3.0 * turn)) * *transform;
     }
-    scene.camera.near = 0.2 * height;
+    scene.camera.projection = scene.camera.projection.with_near(0.2 * height);
     scene
 }
 

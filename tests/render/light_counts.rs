@@ -20,7 +20,7 @@ fn floor() -> Thing {
 /// A floor that fills the picture.
 fn over_floor() -> Scene {
     let mut scene = Scene::seen_from(Vec3::new(0.0, 3.0, 1.5), Vec3::ZERO).ambient(0.1);
-    scene.camera.fov_y = 0.7;
+    scene.camera.projection = Projection::perspective(0.7);
     scene
 }
 

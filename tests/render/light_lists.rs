@@ -15,7 +15,7 @@ const HALF_A_STEP: f64 = 0.5 * STEP;
 /// A camera straight above, so that every patch of a floor about the origin with this edge shows.
 fn above(size: f32) -> Scene {
     let mut scene = Scene::seen_from(Vec3::new(0.0, size, 0.01 * size), Vec3::ZERO);
-    scene.camera.fov_y = 1.2;
+    scene.camera.projection = Projection::perspective(1.2);
     scene
 }
 

@@ -148,7 +148,7 @@ fn a_displaced_mesh_converges_to_the_bumped_plane() {
         let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::white() };
         let mut scene = Scene::in_eye_space().with(thing).lit(Lamp::directional(light, Vec3::new(-0.6, -1.0, -0.4)));
         scene.eye = Transform::from_xyz(0.0, 60.0, 0.0).looking_at(Vec3::ZERO, Vec3::NEG_Z);
-        scene.camera.fov_y = 0.02;
+        scene.camera.projection = Projection::perspective(0.02);
         scene.view_shading = Some(Shading::Phong);
         scene
     };
@@ -270,7 +270,7 @@ fn bumpy_by(far_normals: FarNormals, reflectance: Reflectance, along: f32, wave:
     let mut scene = Scene::in_eye_space().with(thing).lit(Lamp::directional(light, Vec3::new(-0.15, -1.0, -0.1)));
     scene.eye = Transform::from_xyz(0.0, 6.0, 0.0).looking_at(Vec3::ZERO, Vec3::NEG_Z);
     // 4 wide at a distance of 6, on pictures of 4:3.
-    scene.camera.fov_y = 2.0 * (1.5_f32 / 6.0).atan();
+    scene.camera.projection = Projection::perspective(2.0 * (1.5_f32 / 6.0).atan());
     scene.view_shading = Some(Shading::Phong);
     scene.view_reflectance = Some(reflectance);
     scene

@@ -234,7 +234,7 @@ fn every_field_of_view_and_roll_is_projected_right() {
                 .with(Thing::square(Vec3::NEG_Z, Vec3::Z, 50.0))
                 .lit(Lamp::directional(directional_light(), Vec3::new(-0.3, -0.5, -1.0)));
             scene.eye.rotation *= Quat::from_rotation_z(roll);
-            (scene.camera.fov_y, scene.camera.near) = (fov_y, 1e-2);
+            scene.camera.projection = Projection::Perspective { fov_y, near: 1e-2 };
             assert_as_expected(&format!("fov {fov_y}, roll {roll}"), &mut stage, &scene);
         }
     }
@@ -284,7 +284,7 @@ fn the_near_plane_cuts_and_there_is_no_far_one() {
             let mut scene = Scene::in_eye_space().with(
                 Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 9.0 * distance).with_material(glowing(1.0, 1.0, 1.0)),
             );
-            scene.camera.near = near;
+            scene.camera.projection = scene.camera.projection.with_near(near);
             let seen = stage.draw(&scene).get_pixel(4, 4).0[0] > 0.5;
             assert_eq!(seen, shown, "near {near}, at {distance:e}");
         }

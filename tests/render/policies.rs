@@ -82,7 +82,7 @@ fn the_largest_channel_is_found_wherever_it_is() {
         let mut stage = Stage::new(width, height);
         for at in [[0, 0], [width - 1, 0], [0, height - 1], [width - 1, height - 1], [width / 2, height / 2]] {
             // A small square over the middle of one pixel.
-            let half = (Camera::default().fov_y * 0.5).tan();
+            let half = 0.5 * Camera::default().projection.height_at(1.0_f32);
             let place = |i: u32, of: u32| 2.0 * (i as f32 + 0.5) / of as f32 - 1.0;
             let aspect = width as f32 / height as f32;
             let center = Vec3::new(place(at[0], width) * half * aspect, -place(at[1], height) * half, -1.0);

@@ -137,7 +137,7 @@ impl Numbers {
         let thing =
             Thing::new(hemisphere(10, 6)).with_material(self.front).back(self.back).faces(Faces::Both).at(object);
         let mut scene = Scene::seen_from(Vec3::new(1.0, 2.0, 3.0) * self.size, Vec3::ZERO).ambient(0.1);
-        scene.camera.near = 0.1 * self.size;
+        scene.camera.projection = scene.camera.projection.with_near(0.1 * self.size);
         scene.camera.viewer = self.viewer;
         scene.things.push(thing.shaded(self.shading).reflecting(self.reflectance));
         scene.lamps = self.lamps.iter().map(|lamp| self.placed(lamp)).collect();

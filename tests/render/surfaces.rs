@@ -72,7 +72,7 @@ fn surfaces_that_reach_behind_the_camera_are_clipped() {
     let mut stage = Stage::new(48, 48);
     let mut failures = Failures::default();
     let mut clipped = Scene::seen_from(Vec3::new(0.3, 1.0, 0.4), Vec3::new(0.1, 0.2, -3.0)).ambient(0.1);
-    clipped.camera.near = 0.7;
+    clipped.camera.projection = clipped.camera.projection.with_near(0.7);
     let floor = Thing::new(Plane { size: 14.0, divisions: 1 }).faces(Faces::Both);
     let tent = mesh(
         &[[-1.0, 3.0, 4.0], [-6.0, -2.0, 3.0], [0.5, 0.5, -5.0], [5.0, -1.0, 2.0]],
@@ -110,7 +110,7 @@ fn a_vast_floor_is_lit_however_low_the_camera_is() {
                     let mut scene = Scene::seen_from(eye, eye + Vec3::new(0.4, -0.5, -1.0))
                         .with(floor.back(Material::matte(LinearRgba::BLACK)))
                         .lit(Lamp::directional(directional_light(), Vec3::new(0.3, -1.0, -0.2)));
-                    scene.camera.near = 0.2 * height;
+                    scene.camera.projection = scene.camera.projection.with_near(0.2 * height);
                     scene.camera.viewer = Viewer::Infinite;
                     let row = format!("{size:e} wide, seen from {height} above, {shading:?}, {faces:?} faces");
                     let picture = stage.draw(&scene);

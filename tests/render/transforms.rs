@@ -143,7 +143,7 @@ fn every_scale_of_the_world_gives_the_same_picture() {
             .lit(Lamp::point(light, at(Vec3::new(2.0, 1.5, 1.0))))
             .with(Thing::new(hemisphere(16, 8)).at(object).faces(Faces::Both).shaded(shading).reflecting(reflectance));
         scene.eye.translation = at(scene.eye.translation);
-        scene.camera.near = 0.1 * size;
+        scene.camera.projection = scene.camera.projection.with_near(0.1 * size);
         scene
     };
     let mut stage = Stage::new(48, 48);
@@ -177,7 +177,7 @@ fn a_mesh_of_any_size_gives_the_same_picture() {
             let mut scene = Scene::seen_from(Vec3::new(0.5, 1.0, 3.0) * size, Vec3::ZERO)
                 .with(Thing::new(UvSphere::new(size, 16, 8)).shaded(shading))
                 .lit(Lamp::point(light, Vec3::new(2.0, 1.5, 1.0) * size));
-            scene.camera.near = 0.1 * size;
+            scene.camera.projection = scene.camera.projection.with_near(0.1 * size);
             let row = format!("radius {size:e}, {shading:?}");
             failures.draw(&row, &mut stage, &scene, FLOAT);
         }

@@ -37,10 +37,10 @@ pub enum EmptyReason {
          its -Z axis"
     )]
     AllBehind(usize),
-    /// All objects are beside the view, or nearer than the near plane.
+    /// All objects are beside the view, or not between the near and the far plane.
     #[error(
         "all {0} objects are outside of the camera's view: move the camera back, aim it by `Transform::looking_at`, or \
-         check `Camera::near` and `Camera::fov_y`"
+         check `Camera::projection`"
     )]
     AllOutside(usize),
     /// Nothing lights the objects, and none shines by itself.
@@ -112,7 +112,8 @@ pub fn why_empty(world: &mut World) -> Option<EmptyReason> {
     if in_eye.iter().all(|(center, radius)| center.z - radius > 0.0) {
         return Some(EmptyReason::AllBehind(in_eye.len()));
     }
-    let seen = || not_hidden.iter().zip(&in_eye).filter(|(_, (center, radius))| view.projection.sees(*center, *radius));
+    let seen =
+        || not_hidden.iter().zip(&in_eye).filter(|(_, (center, radius))| view.lens.sees(center.to_array(), *radius));
     let count = seen().count();
     if count == 0 {
         return Some(EmptyReason::AllOutside(in_eye.len()));

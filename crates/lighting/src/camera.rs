@@ -1,29 +1,40 @@
 //! The camera: what a view looks through and how its picture is written.
 
-use std::f32::consts::{FRAC_PI_4, PI};
-use std::ops::Bound::Excluded;
-
 use bevy_color::LinearRgba;
 use bevy_ecs::component::Component;
+use bevy_math::Vec3;
 use bevy_transform::components::Transform;
 
-use crate::equations::{Transcendental, srgb_encoded};
+use crate::equations::vector::Real;
+use crate::equations::{Eye, Transcendental, srgb_encoded};
 use crate::invalid::{Fields, InvalidValue};
-use crate::range::Range;
-use crate::{Intensity, Viewer};
+use crate::{Intensity, Projection, Viewer};
 
-/// A perspective camera at its entity's transform, looking along its local −Z with +Y up.
+/// A camera at its entity's transform, looking along its local −Z with +Y up.
 ///
 /// Only the transform's translation and rotation count: eye space has world units whatever the
 /// camera is attached to. A [`Shading`](crate::Shading) or [`Reflectance`](crate::Reflectance) component on the camera
 /// is the view's default; an object's own wins for that object.
+///
+/// ```
+/// use bevy_math::Vec3;
+/// use halfway_lighting::{Camera, Projection, Samples};
+///
+/// // From above right, a ball of radius 2 about the origin fills the picture: a bundle to spawn.
+/// let (camera, transform) = Camera::default().framing((Vec3::ZERO, 2.0), Vec3::new(-1.0, -1.0, -1.0));
+/// assert!(transform.translation.length() > 2.0);
+///
+/// // The same as a plan, with smooth edges.
+/// let plan = Camera { samples: Samples::Four, ..Camera::orthographic(4.0) };
+/// let (plan, _) = plan.framing((Vec3::ZERO, 2.0), Vec3::NEG_Y);
+/// assert!(matches!(plan.projection, Projection::Orthographic { height: 4.0, .. }));
+/// # assert_eq!(camera, Camera::default());
+/// ```
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[require(Transform)]
 pub struct Camera {
-    /// Vertical field of view in radians, in (0, π). Default 45°.
-    pub fov_y: f32,
-    /// Distance of the near plane in world units, above 0. Default 0.1. There is no far plane.
-    pub near: f32,
+    /// How eye space falls onto the picture. Default: a perspective of 45° with its near plane at 0.1.
+    pub projection: Projection,
     /// Colour where nothing is drawn, linear RGB, 0 to 10¹²; alpha is ignored, the picture is opaque. Default black.
     pub background: LinearRgba,
     /// Whether `v` points toward the eye or is constant. Default [`Viewer::Local`].
@@ -39,8 +50,7 @@ pub struct Camera {
 impl Default for Camera {
     fn default() -> Self {
         Self {
-            fov_y: FRAC_PI_4,
-            near: 0.1,
+            projection: Projection::default(),
             background: LinearRgba::BLACK,
             viewer: Viewer::default(),
             samples: Samples::default(),
@@ -102,17 +112,54 @@ impl Encoding {
 }
 
 impl Camera {
+    /// A camera with [this perspective](Projection::perspective), which is otherwise the default one; `fov_y` is in
+    /// radians.
+    pub fn perspective(fov_y: f32) -> Self {
+        Self { projection: Projection::perspective(fov_y), ..Self::default() }
+    }
+
+    /// A camera with [this orthographic projection](Projection::orthographic), which is otherwise the default one;
+    /// `height` is in world units.
+    pub fn orthographic(height: f32) -> Self {
+        Self { projection: Projection::orthographic(height), ..Self::default() }
+    }
+
+    /// The same camera with its near plane at this depth.
+    #[must_use]
+    pub fn with_near(self, near: f32) -> Self {
+        Self { projection: self.projection.with_near(near), ..self }
+    }
+
+    /// The camera and its place where it looks along `direction` and shows a sphere, given by its centre and radius, as
+    /// large as it can be seen wholly in a picture that is at least as wide as it is high.
+    ///
+    /// A perspective keeps its field of view and stands as near as it may; its near plane comes closer where the sphere
+    /// would be cut. An orthographic projection takes the height of the sphere. +Y is up in the picture, or −Z if the
+    /// camera looks straight down, +Z if straight up. A `direction` of length 0 counts as −Z, a radius of 0 as 1.
+    pub fn framing(self, (center, radius): (Vec3, f32), direction: Vec3) -> (Self, Transform) {
+        let radius = if radius > 0.0 { radius } else { 1.0 };
+        let direction = direction.normalize_or(Vec3::NEG_Z);
+        let (distance, projection) = self.projection.framing(radius);
+        let upright = direction.cross(Vec3::Y).length_squared() > 1e-9;
+        let up = if upright { Vec3::Y } else { Vec3::Z * direction.y };
+        let place = Transform::from_translation(center - distance * direction).looking_to(direction, up);
+        (Self { projection, ..self }, place)
+    }
+
+    /// Where the viewer is in eye space, for the vector v to the viewer: at the origin, or infinitely far along +Z where
+    /// [`viewer`](Self::viewer) or the projection says so.
+    pub fn eye<T: Real>(&self) -> Eye<T> {
+        self.projection.eye(self.viewer)
+    }
+
     /// Checks every field against its range.
     ///
     /// # Errors
     /// An [`InvalidValue`] that names the field.
     pub fn validate(&self) -> Result<(), InvalidValue> {
         let fields = Fields::for_owner("Camera");
-        fields.within("fov_y", self.fov_y, Self::FIELD_OF_VIEW)?;
-        fields.positive("near", self.near)?;
+        self.projection.validate_in(fields.inside("projection."))?;
         fields.color("background", self.background)?;
         self.intensity.validate()
     }
-
-    const FIELD_OF_VIEW: Range = Range::new(Excluded(0.0), Excluded(PI), "an angle above 0 and below π radians");
 }

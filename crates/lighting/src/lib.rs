@@ -17,7 +17,7 @@
 //! | S (Phong) | max(r·v, 0)^α, r = 2(n·l)n − l | gate: 0 unless n·l > 0 | [`Reflectance::Phong`] |
 //! | S (Blinn–Phong) | max(n·h, 0)^β, h = (l + v)/‖l + v‖ | gate: 0 unless n·l > 0 | [`Reflectance::BlinnPhong`] |
 //! | sky, ground | colours of a light from all around, which adds kd·lerp(ground, sky, (1 + n·d)/2), d toward the sky | ≥ 0 | [`HemisphereLight`] |
-//! | v | local viewer: toward the eye; infinite viewer: (0, 0, 1) in eye space | | [`Viewer`] |
+//! | v | local viewer: toward the eye; infinite viewer: (0, 0, 1) in eye space; orthographic camera: v = +Z in eye space at every point | | [`Viewer`], [`Projection`] |
 //!
 //! All vectors have unit length, all colours are linear RGB (a [`LinearRgba`](bevy_color::LinearRgba) whose alpha is
 //! ignored), angles are in radians. Sources: Phong 1975 and Blinn 1977 for S, OpenGL 2.1 §2.14.1 for the sum, the
@@ -32,6 +32,8 @@
 //!   its entity's `GlobalTransform` puts it and shines along the local −Z axis. Every value has a `validate()` whose
 //!   [`InvalidValue`] names type, field, value and what was expected.
 //! - [`lights`]: the kinds of light, a file each: component, maths, bound, record, WGSL and fields.
+//! - [`Camera`] and its [`Projection`], perspective or orthographic; [`Lens`], the projection on a picture, answers what
+//!   depends on it: clip space, rays, the frustum, the size of a pixel.
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`record`]: lights, materials and instances as whatever draws reads them.
@@ -73,6 +75,7 @@ mod material;
 mod place;
 mod plugin;
 mod presets;
+mod projection;
 mod propagation;
 mod range;
 pub mod record;
@@ -92,6 +95,7 @@ pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
 pub use place::{light_direction, light_position, light_up, rotation_along};
 pub use plugin::LightingPlugin;
+pub use projection::{DepthSpan, Lens, LensTerms, Projection, ViewRay};
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
 pub use shading::{Blend, Faces, Mask, Reflectance, Shading, Terms, Viewer};

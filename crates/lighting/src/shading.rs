@@ -152,7 +152,7 @@ impl Mask {
 /// The position of the viewer for the highlights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Viewer {
-    /// v points from the surface to the eye.
+    /// v points from the surface to the eye; under an orthographic camera it is (0, 0, 1) in eye space everywhere.
     #[default]
     Local,
     /// v is (0, 0, 1) in eye space everywhere: cheaper, and right only for a far or orthographic camera.

@@ -298,11 +298,11 @@ impl Job {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pass::{DrawCall, Lens, PixelFormat};
+    use crate::pass::{DrawCall, PixelFormat};
     use crate::{Pieces, TriangleOrder, VertexLists};
     use halfway_lighting::record::Cull;
     use halfway_lighting::record::{InstanceRecord, LightRange, MaterialRecord, SurfaceLights, SurfaceRecord};
-    use halfway_lighting::{Frequency, Samples, Terms};
+    use halfway_lighting::{Frequency, Lens, Samples, Terms};
 
     /// A pass into bytes, without lights.
     fn plain<'a>(
@@ -316,7 +316,7 @@ mod tests {
             samples: Samples::One,
             pixels: PixelFormat::SrgbBytes,
             clear: [0.0; 3],
-            lens: Lens { scale: [1.0, size[0] as f32 / size[1] as f32], near: 0.1 },
+            lens: Lens::perspective([1.0, size[0] as f32 / size[1] as f32], 0.1),
             local_viewer: true,
             lights: &[],
             lists: &[],

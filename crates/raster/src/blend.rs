@@ -110,7 +110,7 @@ impl TileBuffer {
         let [x, y] = shown.place;
         let fragments = Fragments {
             place: shown.place,
-            inverse_w: clamped(simd, plane(simd, &planes.lead, 0, x, y), planes),
+            nearness: clamped(simd, plane(simd, &planes.lead, 0, x, y), planes),
             lead: three(simd, &planes.lead, x, y),
             second: if state.stage == Stage::Mixed { three(simd, &planes.second, x, y) } else { [splat(simd, 0.0); 3] },
             mapped: if state.maps.is_some() {
@@ -126,7 +126,10 @@ impl TileBuffer {
         let color = kept(simd, fragments.color_apart(simd, look, state, back), look.pass.pixels);
         let mut opacity = splat(simd, state.side(look.pass, back).opacity);
         if state.paints() {
-            opacity *= saturate(simd, plane(simd, &planes.paint, 0, x, y) / fragments.inverse_w);
+            opacity *= saturate(
+                simd,
+                plane(simd, &planes.paint, 0, x, y) / look.screen.inverse_w_at(simd, fragments.nearness),
+            );
         }
         let mut new = new;
         if state.maps.is_some() {

@@ -92,13 +92,10 @@ fn check_size(pass: &Pass, output: &Output) -> Result<(), RasterError> {
 
 fn check_view(pass: &Pass) -> Result<(), RasterError> {
     finite("pass", 0, "clear", &pass.clear)?;
-    let positive = |field, value: f32| {
-        let is_right = value.is_finite() && value > 0.0;
-        if is_right { Ok(()) } else { wrong("lens", 0, field, value, "a finite number above 0") }
-    };
-    positive("scale", pass.lens.scale[0])?;
-    positive("scale", pass.lens.scale[1])?;
-    positive("near", pass.lens.near)
+    match pass.lens.fault() {
+        None => Ok(()),
+        Some((field, value, expected)) => wrong("lens", 0, field, value, expected),
+    }
 }
 
 fn check_light(index: usize, light: &LightRecord) -> Result<(), RasterError> {

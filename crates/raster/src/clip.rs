@@ -4,8 +4,9 @@ use crate::cover::EdgeFunctions;
 use crate::placed::TILE;
 use crate::planes::{CutCorner, DepthPlane, Gradient, Planes};
 use crate::samples::sample_offsets;
+use crate::screen::Screen;
 use crate::triangle::Covering;
-use crate::vertices::{CLIPPED, GRID, SCREEN_HIGH, SCREEN_LOW, Screen, TOO_NEAR, Vertices};
+use crate::vertices::{CLIPPED, GRID, SCREEN_HIGH, SCREEN_LOW, TOO_NEAR, Vertices};
 use halfway_lighting::record::Cull;
 
 /// A corner on the picture.
@@ -13,6 +14,7 @@ use halfway_lighting::record::Cull;
 pub(crate) struct Corner {
     screen: [f32; 2],
     grid: [i32; 2],
+    inverse_w: f32,
     /// The leading numbers by side, as in [`Vertices::lead`].
     lead: [[f32; 4]; 2],
     second: [[f32; 4]; 2],
@@ -73,6 +75,7 @@ impl Corner {
     fn at_vertex(vertices: &Vertices, v: usize, weights: [f64; 3]) -> Self {
         Self {
             weights,
+            inverse_w: vertices.inverse_w[v],
             screen: [vertices.screen[0][v], vertices.screen[1][v]],
             grid: [vertices.grid[0][v], vertices.grid[1][v]],
             lead: [vertices.lead[0][v], vertices.lead[usize::from(vertices.sides_lead)][v]],
@@ -88,7 +91,9 @@ impl Corner {
         }
         let mean = |list: &[f32]| -> f64 { (0..3).map(|k| weights[k] * f64::from(list[numbers[k]])).sum() };
         let [x, y, z] = [0, 1, 2].map(|axis| mean(&vertices.eye[axis]));
-        let inverse_w = 1.0 / -z;
+        let lens = screen.lens.cast::<f64>();
+        let inverse_w = 1.0 / lens.w(-z);
+        let nearness = lens.nearness(-z) as f32;
         let pixels = |axis: usize, v: f64| {
             let at = v * inverse_w * f64::from(screen.scale[axis]) + f64::from(screen.center[axis]);
             at.clamp(f64::from(SCREEN_LOW), f64::from(SCREEN_HIGH)) as f32
@@ -96,11 +101,12 @@ impl Corner {
         let on_screen = [pixels(0, x), pixels(1, y)];
         let four = |first: usize| {
             let [a, b, c] = [0, 1, 2].map(|k| (mean(&vertices.raw[first + k]) * inverse_w) as f32);
-            [inverse_w as f32, a, b, c]
+            [nearness, a, b, c]
         };
         let of_normal = four(0);
         let of_colors = [four(3), four(6)];
         Self {
+            inverse_w: inverse_w as f32,
             screen: on_screen,
             grid: on_screen.map(|v| (v * GRID as f32).round_ties_even() as i32),
             lead: if vertices.sides_lead { of_colors } else { [of_normal; 2] },
@@ -129,7 +135,8 @@ impl Polygon {
     /// Clips at the planes that some corner is beyond (Sutherland, Hodgman 1974).
     fn clip(&mut self, vertices: &Vertices, numbers: [usize; 3], screen: &Screen, code: i32) {
         let eye = numbers.map(|v| [0, 1, 2].map(|axis| f64::from(vertices.eye[axis][v])));
-        let near = f64::from(screen.near);
+        let lens = screen.lens.cast::<f64>();
+        let near = lens.near;
         if code & TOO_NEAR != 0 {
             self.cut(|weights| {
                 weights[0] * (-eye[0][2] - near) + weights[1] * (-eye[1][2] - near) + weights[2] * (-eye[2][2] - near)
@@ -140,7 +147,7 @@ impl Polygon {
             let scale = f64::from(screen.scale[axis]);
             let center = f64::from(screen.center[axis]);
             for (end, sign) in [(SCREEN_LOW + 1.0, 1.0), (SCREEN_HIGH - 1.0, -1.0)] {
-                let inside = eye.map(|p| sign * (p[axis] * scale + -p[2] * (center - f64::from(end))));
+                let inside = eye.map(|p| sign * (p[axis] * scale + lens.w(-p[2]) * (center - f64::from(end))));
                 self.cut(|weights| weights[0] * inside[0] + weights[1] * inside[1] + weights[2] * inside[2]);
             }
         }
@@ -190,7 +197,7 @@ fn set_up(corners: &[Corner; 3], tile: [u32; 2], covering: &Covering) -> Option<
     let order = if area > 0 { [0, 1, 2] } else { [0, 2, 1] };
     let edges = edges(order.map(|k| x[k]), order.map(|k| y[k]), covering)?;
     let (planes, gradient) = planes(corners, first, (x, y), area > 0, front);
-    let of_corners = corners.each_ref().map(|corner| (corner.lead[0][0], corner.weights));
+    let of_corners = corners.each_ref().map(|corner| (corner.inverse_w, corner.weights));
     Some(Ready { edges, planes, back: !front, gradient, corners: of_corners })
 }
 
@@ -245,7 +252,7 @@ fn planes(
     let on_grid = |v: [i64; 3]| v.map(|v| v as f64 / f64::from(GRID));
     let gradient = Gradient::new(exact(0), exact(1), (on_grid(x), on_grid(y)), positive);
     let lead = [0, 1, 2].map(|k| &corners[k].lead[side]);
-    let inverse_w = lead.map(|lead| lead[0]);
+    let nearness = lead.map(|lead| lead[0]);
     let lead = gradient.slopes(lead);
     let planes = Planes {
         depth: DepthPlane::new(&lead, [0; 2]),
@@ -253,7 +260,7 @@ fn planes(
         second: gradient.slopes([0, 1, 2].map(|k| &corners[k].second[side])),
         paint: gradient.slopes([0, 1, 2].map(|k| &corners[k].paint)),
         face: [0.0; 3],
-        range: [inverse_w.into_iter().fold(f32::INFINITY, f32::min), inverse_w.into_iter().fold(0.0, f32::max)],
+        range: [nearness.into_iter().fold(f32::INFINITY, f32::min), nearness.into_iter().fold(0.0, f32::max)],
     };
     (planes, gradient)
 }

@@ -91,7 +91,7 @@ pub(crate) const EVEN: i32 = -1;
 /// The nearest surface at each sample of a tile. With four samples each list holds all pixels' first samples, then all
 /// second ones, and so on; the depths of a pixel's samples lie side by side.
 pub(crate) struct TileBuffer {
-    /// 1/w, or 0 where nothing is drawn.
+    /// The [nearness](halfway_lighting::Lens::nearness), 0 where nothing is.
     pub(crate) depth: Vec<[f32; LIST]>,
     /// The number of its shader: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's
     /// number. If the second sample's is [`EVEN`], the first one's lists hold for all samples.
@@ -99,8 +99,8 @@ pub(crate) struct TileBuffer {
     /// With four samples, the triangle.
     pub(crate) triangle: Vec<[i32; LIST]>,
     pub(crate) triangles: i32,
-    /// 1/w where it is shaded, with four samples.
-    pub(crate) inverse_w: Vec<[f32; LIST]>,
+    /// The nearness where it is shaded, with four samples.
+    pub(crate) nearness: Vec<[f32; LIST]>,
     /// The leading numbers, replaced by the color once shaded.
     pub(crate) lead: Vec<[[f32; LIST]; 3]>,
     /// More of them.
@@ -155,7 +155,7 @@ impl TileBuffer {
             shader: Vec::new(),
             triangle: Vec::new(),
             triangles: 0,
-            inverse_w: Vec::new(),
+            nearness: Vec::new(),
             lead: Vec::new(),
             second: Vec::new(),
             paint: Vec::new(),
@@ -182,7 +182,7 @@ impl TileBuffer {
             self.paint.resize(count, [[0.0; LIST]; 3]);
         }
         if samples == Samples::Four {
-            self.inverse_w.resize(count, [0.0; LIST]);
+            self.nearness.resize(count, [0.0; LIST]);
             self.triangle.resize(count, [0; LIST]);
         }
     }
@@ -374,13 +374,13 @@ impl TileBuffer {
         simd: S,
         kept: Kept,
         place: [F<S>; 2],
-        inverse_w: F<S>,
+        nearness: F<S>,
         shown: M<S>,
     ) -> M<S> {
         let (Some((look, state, back)), Some(number)) = (kept.mask, kept.mapped) else { return shown };
         let of = shown.select(splat_i(simd, number), splat_i(simd, -1));
-        let inverse_w = shown.select(inverse_w, splat(simd, 1.0));
-        let pixels = MappedPixels { triangles: &self.mapped_triangles, of, place, inverse_w };
+        let nearness = shown.select(nearness, splat(simd, 1.0));
+        let pixels = MappedPixels { triangles: &self.mapped_triangles, of, place, nearness };
         pixels.are_there(simd, look.pass, state, back)
     }
 
@@ -429,11 +429,11 @@ pub(crate) fn covered<S: Simd>(simd: S, edges: &EdgeFunctions, i: i32, j: i32) -
     inside & column.simd_ge(splat_i(simd, left)) & column.simd_le(splat_i(simd, right))
 }
 
-/// 1/w, kept between the corners'.
+/// The nearness, kept between the corners'.
 #[inline(always)]
-pub(crate) fn clamped<S: Simd>(simd: S, inverse_w: F<S>, planes: &Planes) -> F<S> {
+pub(crate) fn clamped<S: Simd>(simd: S, nearness: F<S>, planes: &Planes) -> F<S> {
     let [least, most] = planes.range;
-    min::<S>(max::<S>(inverse_w, splat(simd, least)), splat(simd, most))
+    min::<S>(max::<S>(nearness, splat(simd, least)), splat(simd, most))
 }
 
 /// One of the numbers at points of the tile.

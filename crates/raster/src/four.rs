@@ -66,9 +66,9 @@ impl TileBuffer {
                 f32x4::simd_from(simd, x),
                 slopes.dy.mul_add_precise(f32x4::simd_from(simd, y), slopes.base),
             );
-            let inverse_w = min_one(max_one(v[0], least), most);
+            let nearness = min_one(max_one(v[0], least), most);
             let shader = shader | (place as i32) << CENTROID_SHIFT;
-            self.keep_samples(pixel, mask, shader, inverse_w, keeps_lead.then(|| [v[1], v[2], v[3]]));
+            self.keep_samples(pixel, mask, shader, nearness, keeps_lead.then(|| [v[1], v[2], v[3]]));
         }
     }
 
@@ -87,12 +87,12 @@ impl TileBuffer {
 
     /// Stores a triangle's values in some of a pixel's samples.
     #[inline(always)]
-    fn keep_samples(&mut self, pixel: usize, mask: usize, shader: i32, inverse_w: f32, lead: Option<[f32; 3]>) {
+    fn keep_samples(&mut self, pixel: usize, mask: usize, shader: i32, nearness: f32, lead: Option<[f32; 3]>) {
         let pixel = pixel % PIXELS;
         if mask != ALL && self.shader[1][pixel] == EVEN {
             self.write_out(pixel);
         }
-        let Self { shader: shaders, triangle, inverse_w: inverses, lead: leads, triangles, .. } = self;
+        let Self { shader: shaders, triangle, nearness: inverses, lead: leads, triangles, .. } = self;
         let (Ok(shaders), Ok(triangle), Ok(inverses), Ok(leads)) = (
             <&mut [_; 4]>::try_from(&mut shaders[..]),
             <&mut [_; 4]>::try_from(&mut triangle[..]),
@@ -107,7 +107,7 @@ impl TileBuffer {
             left &= left - 1;
             shaders[sample][pixel] = shader;
             triangle[sample][pixel] = *triangles;
-            inverses[sample][pixel] = inverse_w;
+            inverses[sample][pixel] = nearness;
             if let Some(v) = lead {
                 for c in 0..3 {
                     leads[sample][c][pixel] = v[c];
@@ -122,10 +122,10 @@ impl TileBuffer {
     /// Copies the first sample's values to the others of a pixel.
     #[inline(never)]
     fn write_out(&mut self, pixel: usize) {
-        let Self { shader, triangle, inverse_w, lead, second, paint, mapped, face, keeps_more, .. } = self;
+        let Self { shader, triangle, nearness, lead, second, paint, mapped, face, keeps_more, .. } = self;
         repeat(shader, pixel);
         repeat(triangle, pixel);
-        repeat(inverse_w, pixel);
+        repeat(nearness, pixel);
         repeat_three(lead, pixel);
         if *keeps_more {
             repeat(mapped, pixel);
@@ -207,8 +207,8 @@ impl TileBuffer {
         if all != 0 {
             let place = [counting(simd) + splat(simd, i as f32), splat(simd, j as f32)];
             let shown = M::<S>::from_bitmask(simd, all);
-            let inverse_w = clamped(simd, plane(simd, &planes.lead, 0, place[0], place[1]), planes);
-            replace::<S>(simd, shown, inverse_w, &mut self.inverse_w[0], at);
+            let nearness = clamped(simd, plane(simd, &planes.lead, 0, place[0], place[1]), planes);
+            replace::<S>(simd, shown, nearness, &mut self.nearness[0], at);
             let number = self.triangles;
             let [first, second, ..] = &mut self.shader[..] else { return };
             for (list, value) in [(first, shader), (second, EVEN), (&mut self.triangle[0], number)] {
@@ -275,10 +275,10 @@ impl TileBuffer {
         let [x, y] = [i as f32 + CENTROIDS[place][0], j as f32 + CENTROIDS[place][1]];
         let v = value(simd, &planes.lead, x, y);
         if kept.mask.is_some() {
-            let inverse_w = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
+            let nearness = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
             let first = counting_i(simd).simd_eq(splat_i(simd, 0));
             let place = [splat(simd, x), splat(simd, y)];
-            if !self.left_by_mask(simd, kept, place, splat(simd, inverse_w), first).any_true() {
+            if !self.left_by_mask(simd, kept, place, splat(simd, nearness), first).any_true() {
                 return;
             }
         }
@@ -301,8 +301,8 @@ impl TileBuffer {
         kept: Kept,
         v: f32x4<S>,
     ) {
-        let inverse_w = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
-        self.keep_samples(pixel, mask, shader, inverse_w, kept.lead.then(|| [v[1], v[2], v[3]]));
+        let nearness = min_one(max_one(v[0], planes.range[0]), planes.range[1]);
+        self.keep_samples(pixel, mask, shader, nearness, kept.lead.then(|| [v[1], v[2], v[3]]));
         if kept.second || kept.paint || kept.face || kept.mapped.is_some() {
             let written = if mask == ALL { 1 } else { mask };
             for sample in (0..4).filter(|sample| written >> sample & 1 != 0) {
@@ -360,7 +360,7 @@ fn bit_of_four(bits: u64) -> u64 {
     (bits | bits >> 24) & 0xffff
 }
 
-/// The covered samples of a pixel, and 1/w at each.
+/// Which samples of a pixel are covered, and the nearness at each.
 #[inline(always)]
 pub(crate) fn samples<S: Simd>(
     simd: S,

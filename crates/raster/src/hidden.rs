@@ -9,8 +9,8 @@ use fearless_simd::prelude::*;
 const PIXELS: usize = TILE * TILE;
 
 impl TileBuffer {
-    /// Whether a triangle of few pixels, with one sample each, is behind the drawn surfaces everywhere: its 1/w is at
-    /// most `most`.
+    /// Whether a triangle of few pixels, with one sample each, is nowhere nearer than what has been drawn: its nearness is
+    /// at most `most`.
     #[inline(always)]
     pub(crate) fn hides_tiny(&self, (pixels, first): (i32, [i32; 2]), most: f32) -> bool {
         let first = first[1] as usize * TILE + first[0] as usize;
@@ -26,7 +26,7 @@ impl TileBuffer {
         true
     }
 
-    /// Whether all pixels of some columns and rows show a surface at least as near as this 1/w.
+    /// Whether all of some columns and rows show something that is at least as near as this.
     #[inline(always)]
     pub(crate) fn hides<S: Simd>(&self, simd: S, first: [usize; 2], last: [usize; 2], nearest: f32) -> bool {
         let nearest = splat(simd, nearest);

@@ -34,6 +34,7 @@ mod policy;
 mod power;
 mod rasterizer;
 mod samples;
+mod screen;
 mod shade;
 mod state;
 mod surroundings;
@@ -45,7 +46,7 @@ mod width;
 
 pub use bands::ClearTiles;
 pub use error::{LARGEST_SIDE, RasterError};
-pub use pass::{DrawCall, DrawMaps, Lens, MapCall, MapData, Output, Pass, PixelFormat};
+pub use pass::{DrawCall, DrawMaps, MapCall, MapData, Output, Pass, PixelFormat};
 pub use pieces::{Pieces, TriangleOrder, VertexLists};
 pub use rasterizer::{RasterOptions, Rasterizer};
 pub use threads::Threads;

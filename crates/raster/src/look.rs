@@ -1,8 +1,8 @@
 //! The context of shading: the pass and the tile.
 
 use crate::pass::Pass;
+use crate::screen::Screen;
 use crate::state::State;
-use crate::vertices::Screen;
 
 /// The pass and the tile that are shaded.
 #[derive(Clone, Copy)]

@@ -17,8 +17,8 @@ pub(crate) type PartsOf = [[f32; 3]; 3];
 /// Inputs of a triangle's pixels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct MappedTriangle {
-    /// How 1/w grows from pixel to pixel.
-    pub(crate) inverse_w: [f32; 2],
+    /// How the nearness grows from pixel to pixel.
+    pub(crate) nearness: [f32; 2],
     /// Their base is the first pixel of the tile that may be covered: farther away, small differences between steep
     /// slopes would be lost to rounding.
     pub(crate) groups: [Slopes; GROUPS],
@@ -81,7 +81,7 @@ impl MappedTriangle {
     fn with(groups: &[Slopes; GROUPS], first: [i32; 2], planes: &Planes) -> Self {
         let Slopes { dx, dy, .. } = &planes.lead;
         let first = first.map(|pixels| pixels as f32);
-        Self { inverse_w: [dx[0], dy[0]], groups: *groups, first, face: planes.face, ..Self::default() }
+        Self { nearness: [dx[0], dy[0]], groups: *groups, first, face: planes.face, ..Self::default() }
     }
 }
 

@@ -75,6 +75,11 @@ impl MappedPixel<'_> {
         [a, b, c]
     }
 
+    /// How 1/w grows from pixel to pixel.
+    fn inverse_w_steps(&self) -> [f32; 2] {
+        self.triangle.nearness.map(|step| self.pass.lens.inverse_w_step(step))
+    }
+
     /// u/w, v/w and 1/w are linear over the picture: by the quotient rule ∂u = w·(∂(u/w) − u·∂(1/w)).
     fn on_image(&self, call: &MapCall) -> OnImage {
         let data = &self.pass.maps[call.map as usize];
@@ -82,7 +87,7 @@ impl MappedPixel<'_> {
         let all = self.group(UVS);
         let first = 2 * call.uv_set as usize;
         let uv = [all[first], all[first + 1]];
-        let [wx, wy] = self.triangle.inverse_w;
+        let [wx, wy] = self.inverse_w_steps();
         let ways = [(dx, wx), (dy, wy)].map(|(slope, of_w)| {
             let way = each!(k in 2 => self.w * (slope[first + k] - uv[k] * of_w));
             each!(k in 2 => data.rows[k][0] * way[0] + data.rows[k][1] * way[1])
@@ -115,7 +120,7 @@ impl MappedPixel<'_> {
         let Some(solid) = &self.maps.solid else { return [1.0; 3] };
         let p = self.three(PLACE);
         let Slopes { dx, dy, .. } = &self.triangle.groups[PLACE];
-        let [wx, wy] = self.triangle.inverse_w;
+        let [wx, wy] = self.inverse_w_steps();
         // As of images.
         let way = |slope: &[f32; 4], of_w: f32| each!(axis in 3 => self.w * (slope[axis] - p[axis] * of_w));
         solid.color_at(p, [way(dx, wx), way(dy, wy)])
@@ -156,9 +161,9 @@ impl MappedPixel<'_> {
         Some(SeenNormals { texel, amount: data.amount, roughness })
     }
 
-    /// The front's normal: the interpolated one, perturbed by images if light is shaded at the fragments, or the
-    /// triangle's under flat shading. `way` leads from the eye through the pixel, `steps` to the next.
-    pub(crate) fn normal(&self, state: &State, seen: Option<&SeenNormals>, way: [f32; 3], steps: [f32; 2]) -> [f32; 3] {
+    /// The interpolated normal as images turn it where light is shaded at the fragments, or the triangle's under flat
+    /// shading; of the front. `way` is x and y where w is 1, and changes by `steps` to the next pixel.
+    pub(crate) fn normal(&self, state: &State, seen: Option<&SeenNormals>, way: [f32; 2], steps: [f32; 2]) -> [f32; 3] {
         let n = match state.stage {
             Stage::Flat => return self.triangle.face,
             Stage::Unlit | Stage::Vertex => self.three(MIRROR_NORMAL),
@@ -180,13 +185,14 @@ impl MappedPixel<'_> {
         let d = lookup::level(data.pyramid.size(), footprint);
         let [along_u, along_v] = lookup::gradient(&data.pyramid, &call.sampling, uv, d, call.channel);
         let rises = footprint.map(|[u, v]| data.amount * (along_u * u + along_v * v));
-        // p = way·w, and ∂w = −w²·∂(1/w).
-        let [wx, wy] = self.triangle.inverse_w;
-        let along = [(0, wx), (1, wy)].map(|(axis, of_w)| {
-            let grown = -self.w * self.w * of_w;
-            let mut way = way.map(|x| x * grown);
-            way[axis] += steps[axis] * self.w;
-            way
+        // p = (way·w, −depth), and ∂w = −w²·∂(1/w).
+        let lens = &self.pass.lens;
+        let [nx, ny] = self.triangle.nearness;
+        let along = [(0, nx), (1, ny)].map(|(axis, step)| {
+            let grown = -self.w * self.w * lens.inverse_w_step(step);
+            let mut to_next = [way[0] * grown, way[1] * grown, -lens.depth_step(step, self.w)];
+            to_next[axis] += steps[axis] * self.w;
+            to_next
         });
         bumped_normal(n, self.three(FRAME), along, rises, otherwise)
     }
@@ -220,14 +226,14 @@ pub(crate) struct MappedPixels<'a, S: Simd> {
     pub(crate) triangles: &'a [MappedTriangle],
     pub(crate) of: I<S>,
     pub(crate) place: [F<S>; 2],
-    pub(crate) inverse_w: F<S>,
+    pub(crate) nearness: F<S>,
 }
 
 impl<S: Simd> MappedPixels<'_, S> {
     fn pixel<'a>(&'a self, lane: usize, pass: &'a Pass<'a>, maps: &'a DrawMaps) -> Option<MappedPixel<'a>> {
         let triangle = self.triangles.get(usize::try_from(self.of[lane]).ok()?)?;
         let place = [self.place[0][lane], self.place[1][lane]];
-        Some(MappedPixel { triangle, maps, pass, place, w: 1.0 / self.inverse_w[lane] })
+        Some(MappedPixel { triangle, maps, pass, place, w: 1.0 / pass.lens.inverse_w(self.nearness[lane]) })
     }
 
     /// Their opacities, including the material's; 0 without a triangle.
@@ -291,7 +297,7 @@ impl<S: Simd> MappedPixels<'_, S> {
     /// The light at the pixels.
     #[inline(always)]
     fn lit(&self, simd: S, look: &Look, state: &State, maps: &DrawMaps, back: bool) -> Irradiance<S> {
-        let w = splat(simd, 1.0) / self.inverse_w;
+        let w = look.screen.w_at(simd, self.nearness);
         let way = each!(axis in 2 => {
             let first = splat(simd, look.tile[axis] as f32 * TILE as f32);
             let pixel = self.place[axis] + first;
@@ -305,7 +311,7 @@ impl<S: Simd> MappedPixels<'_, S> {
         for lane in 0..lanes::<S>() {
             let Some(pixel) = self.pixel(lane, look.pass, maps) else { continue };
             let seen = pixel.normals(state);
-            let turned = pixel.normal(state, seen.as_ref(), [way[0][lane], way[1][lane], -1.0], look.screen.way_step);
+            let turned = pixel.normal(state, seen.as_ref(), [way[0][lane], way[1][lane]], look.screen.way_step);
             for axis in 0..3 {
                 n[axis][lane] = if back { -turned[axis] } else { turned[axis] };
             }
@@ -318,7 +324,7 @@ impl<S: Simd> MappedPixels<'_, S> {
             }
         }
         let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
-        let points = Points::new(simd, [way[0] * w, way[1] * w, -w], n, v);
+        let points = Points::new(simd, [way[0] * w, way[1] * w, -look.screen.depth_at(simd, self.nearness, w)], n, v);
         if !changes {
             return state.fragment_terms(simd, look.pass, &points, state.gloss(back));
         }

@@ -3,7 +3,7 @@
 use crate::Pieces;
 use halfway_lighting::record::Cull;
 use halfway_lighting::record::{InstanceRecord, LightRecord, SurfaceRecord};
-use halfway_lighting::{Reflectance, Samples, Terms};
+use halfway_lighting::{Lens, Reflectance, Samples, Terms};
 use halfway_texture::environment::SurroundingsData;
 use halfway_texture::{Channel, FarNormals, MapKind, Pyramid, Sampling, SolidTexture, UvSet};
 use std::ops::Range;
@@ -19,9 +19,9 @@ pub struct Pass<'a> {
     pub pixels: PixelFormat,
     /// The color where nothing is drawn.
     pub clear: [f32; 3],
-    /// How eye space falls onto the picture.
+    /// How eye space falls onto the picture. Where its rays are parallel its far plane is finite.
     pub lens: Lens,
-    /// Whether the viewer of highlights is at the eye; else it is in the direction (0, 0, 1) from every point.
+    /// Whether highlights are seen from the eye, at the origin; else from (0, 0, 1) in every point.
     pub local_viewer: bool,
     /// The lights, in any order.
     pub lights: &'a [LightRecord],
@@ -67,15 +67,6 @@ impl PixelFormat {
     pub(crate) fn is_bytes(self) -> bool {
         self != Self::Floats
     }
-}
-
-/// A perspective with reversed depth and an infinite far plane: clip = (`scale`·xy, `near`, −z).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lens {
-    /// cot(fov/2)/aspect and cot(fov/2), above 0.
-    pub scale: [f32; 2],
-    /// Distance of the near plane, above 0. Nearer surfaces are clipped.
-    pub near: f32,
 }
 
 /// An image, and its transform of texture coordinates.

@@ -4,6 +4,7 @@ use crate::pass::{DrawCall, Pass};
 use crate::pieces::{Piece, PieceExtent};
 use halfway_lighting::record::Cull;
 use halfway_lighting::record::InstanceRecord;
+use halfway_lighting::{DepthSpan, Lens};
 
 /// Pixels along a side of a tile. It is part of the picture's bits: interpolation counts from a tile's corner.
 pub(crate) const TILE: usize = 64;
@@ -15,8 +16,9 @@ pub(crate) struct PlacedInstance {
     stretch: f32,
     /// 1 or −1, the side of a face's normal that is culled; 0 if whole pieces cannot be culled.
     left_out: f32,
-    near: f32,
-    scale: [f32; 2],
+    lens: Lens,
+    /// Surfaces no nearer are behind the near plane, even after rounding.
+    inner_near: f32,
     size: [f32; 2],
 }
 
@@ -43,8 +45,8 @@ impl PlacedInstance {
             rows,
             stretch: stretch.sqrt() as f32,
             left_out: if even && largest > 0.0 { left_out } else { 0.0 },
-            near: pass.lens.near,
-            scale: pass.lens.scale,
+            lens: pass.lens,
+            inner_near: inner_near(pass.lens.near),
             size: pass.size.map(|side| side as f32),
         }
     }
@@ -58,11 +60,8 @@ impl PlacedInstance {
         let Some(cone) = piece.cone.filter(|_| self.left_out != 0.0) else { return false };
         let center = self.place(piece.extent.center);
         let axis = self.rows.map(|row| row[0] * cone.axis[0] + row[1] * cone.axis[1] + row[2] * cone.axis[2]);
-        let along = (axis[0] * center[0] + axis[1] * center[1] + axis[2] * center[2]) * self.left_out / self.stretch;
-        let square = center[0] * center[0] + center[1] * center[1] + center[2] * center[2];
-        let across = (square - along * along).max(0.0).sqrt();
-        // Over the sphere and the cone n·p is at least D·cos(γ + α) − r; if that is above 0 all faces turn away.
-        along * cone.cos - across * cone.sin > piece.extent.radius * self.stretch * 1.0001
+        let axis = axis.map(|along| along * self.left_out / self.stretch);
+        self.lens.hides((center, piece.extent.radius * self.stretch), axis, [cone.cos, cone.sin])
     }
 
     /// The tiles that points of an extent may be in; `None` if they are outside the picture.
@@ -77,33 +76,22 @@ impl PlacedInstance {
             let rounding = 1e-6 * (terms[0].1 + terms[1].1 + terms[2].1 + row[3].abs());
             radius.min(of_box * 1.0001) + rounding
         });
-        let depth = Depth { middle: -z, reach: reach[2], radius };
-        if depth.middle + depth.reach < self.near {
+        let depth = DepthSpan { middle: -z, reach: reach[2], radius };
+        if depth.middle + depth.reach < self.lens.near {
             return None;
         }
-        let [left, right] = self.span(0, x, reach[0], &depth)?;
-        let [bottom, top] = self.span(1, y, reach[1], &depth)?;
+        let [left, right] = self.lens.span(0, (x, reach[0]), &depth)?;
+        let [bottom, top] = self.lens.span(1, (y, reach[1]), &depth)?;
         let (columns, wide) = tiles_of(0.5 + 0.5 * left, 0.5 + 0.5 * right, self.size[0])?;
         let (rows, high) = tiles_of(0.5 - 0.5 * top, 0.5 - 0.5 * bottom, self.size[1])?;
         let tiles = [columns[0], columns[1], rows[0], rows[1]];
-        let is_inside = wide && high && depth.middle - depth.reach >= self.near * 1.0001;
+        let is_inside = wide && high && depth.middle - depth.reach >= self.inner_near;
         Some(TileBox { tiles, is_inside })
     }
+}
 
-    /// The interval that it covers along an axis, as −1 to 1 over the picture.
-    fn span(&self, axis: usize, offset: f32, reach: f32, depth: &Depth) -> Option<[f32; 2]> {
-        let scale = self.scale[axis];
-        let (nearest, farthest) = (depth.middle - depth.reach, depth.middle + depth.reach);
-        if nearest > 1e-3 * depth.radius && nearest > 0.0 {
-            let (low, high) = (offset - reach, offset + reach);
-            let low = scale * low / if low < 0.0 { nearest } else { farthest };
-            let high = scale * high / if high < 0.0 { farthest } else { nearest };
-            return Some([low, high]);
-        }
-        // It contains the eye, or nearly: only the side planes can cull it.
-        let beyond = scale * offset.abs() - depth.middle > depth.radius * (scale * scale + 1.0).sqrt() * 1.0001;
-        (!beyond).then_some([f32::NEG_INFINITY, f32::INFINITY])
-    }
+fn inner_near(near: f32) -> f32 {
+    if near > 0.0 { near * 1.0001 } else { near - near * 1e-4 }
 }
 
 /// The position of an extent on the picture.
@@ -130,13 +118,6 @@ impl TileBox {
     }
 }
 
-/// The distance of an extent from the eye: its middle, its reach along the view, and its radius.
-struct Depth {
-    middle: f32,
-    reach: f32,
-    radius: f32,
-}
-
 /// The tiles from `low` to `high`, given as shares of a side, with a margin of a pixel; and whether all of it is in the
 /// picture.
 fn tiles_of(low: f32, high: f32, size: f32) -> Option<([u16; 2], bool)> {
@@ -158,17 +139,22 @@ mod tests {
     const SIZE: [f32; 2] = [1280.0, 720.0];
 
     fn placed(rows: [[f32; 4]; 3]) -> PlacedInstance {
+        seen_by(Lens::perspective([1.0, 16.0 / 9.0], 0.1), rows)
+    }
+
+    fn seen_by(lens: Lens, rows: [[f32; 4]; 3]) -> PlacedInstance {
         let column = |k: usize| (0..3).map(|row| f64::from(rows[row][k]).powi(2)).sum::<f64>();
         let stretch = (column(0) + column(1) + column(2)).sqrt() as f32;
-        PlacedInstance { rows, stretch, left_out: 0.0, near: 0.1, scale: [1.0, 16.0 / 9.0], size: SIZE }
+        PlacedInstance { rows, stretch, left_out: 0.0, lens, inner_near: inner_near(lens.near), size: SIZE }
     }
 
     /// The tile of a point, projected as vertices are; `None` if it is before the near plane or outside the picture.
     fn tile_of(placed: &PlacedInstance, point: [f32; 3]) -> Option<[u16; 2]> {
         let [x, y, z] =
             placed.rows.map(|[a, b, c, d]| c.mul_add(point[2], b.mul_add(point[1], a.mul_add(point[0], d))));
-        let share = [placed.scale[0] * x / -z, -placed.scale[1] * y / -z].map(|at| 0.5 + 0.5 * at);
-        let inside = -z >= placed.near && share.iter().all(|at| (0.0..1.0).contains(at));
+        let w = placed.lens.w(-z);
+        let share = [placed.lens.scale[0] * x / w, -placed.lens.scale[1] * y / w].map(|at| 0.5 + 0.5 * at);
+        let inside = -z >= placed.lens.near && share.iter().all(|at| (0.0..1.0).contains(at));
         inside.then(|| [0, 1].map(|axis| (share[axis] * SIZE[axis]) as u16 / TILE as u16))
     }
 
@@ -182,6 +168,11 @@ mod tests {
             points in prop::collection::vec(prop::array::uniform3(-1.0_f32..=1.0), 3..20),
             rows in prop::array::uniform3(prop::array::uniform3(-1.5_f32..1.5)),
             to in [-4.0_f32..4.0, -3.0..3.0, -9.0..-0.2],
+            lens in prop::sample::select(vec![
+                Lens::perspective([1.0, 16.0 / 9.0], 0.1),
+                Lens::orthographic([0.3, 0.3 * 16.0 / 9.0], [-1.0, 20.0]),
+                Lens::orthographic([0.3, 0.3 * 16.0 / 9.0], [2.0, 20.0]),
+            ]),
         ) {
             let points = points.into_iter().map(|p| [0, 1, 2].map(|k| away * middle[k] + half[k] * p[k]));
             let points: Vec<[f32; 3]> = points.collect();
@@ -189,7 +180,7 @@ mod tests {
                 let [a, b, c] = rows[row];
                 [a, b, c, to[row] - away * (a * middle[0] + b * middle[1] + c * middle[2])]
             });
-            let placed = placed(rows);
+            let placed = seen_by(lens, rows);
             let tiles = placed.tiles(&PieceExtent::around(points.iter().copied()));
             let at_hand = tiles.filter(TileBox::is_at_hand);
             for point in points {
@@ -210,7 +201,7 @@ mod tests {
         let at_hand = |x: f32, z: f32, near: f32| {
             let rows = [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, z]];
             let plate = [[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.1, 0.1, 0.0], [-0.1, 0.1, 0.0]];
-            let placed = PlacedInstance { near, ..placed(rows) };
+            let placed = seen_by(Lens::perspective([1.0, 16.0 / 9.0], near), rows);
             placed.tiles(&PieceExtent::around(plate.into_iter())).is_some_and(|tiles| tiles.is_at_hand())
         };
         assert!(at_hand(0.3, -4.0, 0.1));

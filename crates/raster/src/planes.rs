@@ -1,8 +1,9 @@
-//! Numbers that are linear over the picture, such as 1/w and a color over w, from their values at three corners.
+//! Numbers that are linear over the picture, such as the nearness and a color over w, from their values at three corners.
 
 use crate::lanes::{Simd, f32x4};
 use crate::state::{Stage, State};
 use fearless_simd::prelude::*;
+use halfway_lighting::Lens;
 
 /// Four numbers as functions of the tile's pixels (i, j): `base + dx·i + dy·j`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,7 +25,7 @@ pub(crate) struct LaneSlopes<S: Simd> {
 /// Planes of the values interpolated over a triangle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Planes {
-    /// 1/w, and three numbers over w.
+    /// The nearness, and three numbers over w.
     pub(crate) lead: Slopes,
     /// Nothing, and three numbers over w.
     pub(crate) second: Slopes,
@@ -32,14 +33,15 @@ pub(crate) struct Planes {
     pub(crate) paint: Slopes,
     /// The triangle's own normal.
     pub(crate) face: [f32; 3],
-    /// The least and greatest 1/w of its corners.
+    /// The least and greatest nearness of its corners.
     pub(crate) range: [f32; 2],
     /// The depth, which decides what is nearest.
     pub(crate) depth: DepthPlane,
 }
 
-/// 1/w as `base + dx·(i − first) + dy·(j − first)` of the tile's pixels (i, j). Every triangle of few pixels starts at
-/// the first pixel that may be covered, in all draws, so that coincident surfaces have equal depths, to the bit.
+/// The nearness as `base + dx·(i − first) + dy·(j − first)` of the tile's pixels (i, j). Every triangle of few pixels
+/// starts at the first pixel that may be covered, in all draws, so that coincident surfaces have equal depths, to the
+/// bit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DepthPlane {
     pub(crate) base: f32,
@@ -121,13 +123,14 @@ impl Planes {
     /// Sets the triangle's own values: its opacity and color if the draw is flat, else its normal if that may be
     /// needed.
     #[inline(always)]
-    pub(crate) fn set_face(&mut self, [first, x, y, z]: &[f32; 4], state: &State) {
+    pub(crate) fn set_face(&mut self, [first, x, y, z]: &[f32; 4], state: &State, lens: &Lens) {
         if state.stage == Stage::Flat {
             if state.paints() {
                 // One opacity over w everywhere.
                 let Slopes { base, dx, dy } = self.lead;
                 let opacity = |number: f32| [first * number, 0.0, 0.0, 0.0];
-                self.paint = Slopes { base: opacity(base[0]), dx: opacity(dx[0]), dy: opacity(dy[0]) };
+                let step = |nearness: f32| opacity(lens.inverse_w_step(nearness));
+                self.paint = Slopes { base: opacity(lens.inverse_w(base[0])), dx: step(dx[0]), dy: step(dy[0]) };
             }
             self.lead.base[1..].copy_from_slice(&[*x, *y, *z]);
             // Clipped corners hold a normal, which flat shading does not fill.

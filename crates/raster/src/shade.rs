@@ -4,7 +4,7 @@ use crate::cover::{EVEN, TileBuffer};
 use crate::encode::{bytes, cleared, kept};
 use crate::four::{CENTROID_SHIFT, SHADER_BITS};
 use crate::lanes::{
-    F, I, M, Simd, V3, add, counting, dot, each, fma, lanes, load, load_i, load3, max, min, neg, safe_normalize, scale,
+    F, I, M, Simd, V3, add, counting, dot, each, lanes, load, load_i, load3, max, min, neg, safe_normalize, scale,
     select3, splat, splat_i, splat3, store,
 };
 use crate::lighting::{Irradiance, Points, added, reflected, tinted, to_viewer};
@@ -25,7 +25,7 @@ use halfway_lighting::equations::NORMAL_MIN;
 pub(crate) struct Fragments<'a, S: Simd> {
     /// In pixels from the tile's first.
     pub(crate) place: [F<S>; 2],
-    pub(crate) inverse_w: F<S>,
+    pub(crate) nearness: F<S>,
     pub(crate) lead: V3<S>,
     /// More of it.
     pub(crate) second: V3<S>,
@@ -60,14 +60,14 @@ impl<S: Simd> Fragments<'_, S> {
         match state.stage {
             Stage::Unlit => splat3(simd, side.base),
             Stage::Flat => self.lead,
-            Stage::Vertex => self.interpolated(simd, self.lead),
+            Stage::Vertex => self.interpolated(simd, look, self.lead),
             Stage::Fragment | Stage::Mixed => {
                 let terms =
                     state.fragment_terms(simd, look.pass, &self.points(simd, look, state, back), state.gloss(back));
                 if state.stage == Stage::Fragment {
                     return reflected(simd, &terms, side);
                 }
-                add::<S>(self.interpolated(simd, self.second), added(simd, &terms, side))
+                add::<S>(self.interpolated(simd, look, self.second), added(simd, &terms, side))
             }
         }
     }
@@ -79,7 +79,7 @@ impl<S: Simd> Fragments<'_, S> {
         if state.maps.is_some() {
             return self.of_maps().colors(simd, look, state, back);
         }
-        let color = self.interpolated(simd, self.paint);
+        let color = self.interpolated(simd, look, self.paint);
         let color = each!(c in 3 => min::<S>(color[c], splat(simd, 1.0)));
         if state.stage == Stage::Unlit {
             return tinted(simd, &Irradiance::none(simd), side, color);
@@ -89,32 +89,28 @@ impl<S: Simd> Fragments<'_, S> {
         if state.stage == Stage::Fragment {
             return shade;
         }
-        add::<S>(self.interpolated(simd, self.second), shade)
+        add::<S>(self.interpolated(simd, look, self.second), shade)
     }
 
     /// The part of shading that reads images.
     #[inline(always)]
     pub(crate) fn of_maps(&self) -> MappedPixels<'_, S> {
-        MappedPixels { triangles: self.triangles, of: self.mapped, place: self.place, inverse_w: self.inverse_w }
+        MappedPixels { triangles: self.triangles, of: self.mapped, place: self.place, nearness: self.nearness }
     }
 
     /// Colors over w as colors. None is below 0; across a triangle seen edge-on slopes leave the range of its corners.
     #[inline(always)]
-    fn interpolated(&self, simd: S, over_w: V3<S>) -> V3<S> {
-        let colors = scale::<S>(over_w, splat(simd, 1.0) / self.inverse_w);
+    fn interpolated(&self, simd: S, look: &Look, over_w: V3<S>) -> V3<S> {
+        let colors = scale::<S>(over_w, look.screen.w_at(simd, self.nearness));
         each!(c in 3 => max::<S>(colors[c], splat(simd, 0.0)))
     }
 
     #[inline(always)]
     fn points(&self, simd: S, look: &Look, state: &State, back: bool) -> Points<S> {
-        let w = splat(simd, 1.0) / self.inverse_w;
-        let way = each!(axis in 2 => {
-            let first = look.tile[axis] as f32 * TILE as f32;
-            let pixel = self.place[axis] + splat(simd, first);
-            fma::<S>(pixel, splat(simd, look.screen.way_step[axis]), splat(simd, look.screen.way_start[axis]))
-        });
+        let w = look.screen.w_at(simd, self.nearness);
+        let way = look.screen.way(simd, look.tile, self.place);
         let n = self.fragment_normal(simd, w, state, back);
-        let p = [way[0] * w, way[1] * w, -w];
+        let p = [way[0] * w, way[1] * w, -look.screen.depth_at(simd, self.nearness, w)];
         // The ray through the pixel, not p: it has a direction however far p is.
         let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
         Points::new(simd, p, n, v)
@@ -188,10 +184,10 @@ impl TileBuffer {
             let same = shaders.simd_eq(splat_i(simd, shader));
             left &= !same.to_bitmask();
             let place = pixels(simd, at);
-            // Undrawn lanes have no w and must not divide by 0.
-            let inverse_w = same.select(load(simd, &self.depth[0], at), splat(simd, 1.0));
+            // Lanes that are not drawn have no nearness and must not divide by 0.
+            let nearness = same.select(load(simd, &self.depth[0], at), splat(simd, 1.0));
             let (state, back) = state_of(look.states, shader);
-            let fragments = self.fragments(simd, (state, same), (0, at), place, inverse_w);
+            let fragments = self.fragments(simd, (state, same), (0, at), place, nearness);
             let shade = if PAINTED {
                 fragments.color_apart(simd, look, state, back)
             } else {
@@ -295,9 +291,9 @@ impl TileBuffer {
                     place[axis][lane] += CENTROIDS[(all[lane] >> CENTROID_SHIFT) as usize & 15][axis];
                 }
             }
-            let inverse_w = fresh.select(load(simd, &self.inverse_w[sample], at), splat(simd, 1.0));
+            let nearness = fresh.select(load(simd, &self.nearness[sample], at), splat(simd, 1.0));
             let (state, back) = state_of(look.states, shader);
-            let fragments = self.fragments(simd, (state, fresh), (sample, at), place, inverse_w);
+            let fragments = self.fragments(simd, (state, fresh), (sample, at), place, nearness);
             color = select3::<S>(fresh, fragments.color_apart(simd, look, state, back), color);
         }
         color
@@ -310,12 +306,12 @@ impl TileBuffer {
         (state, shown): (&State, M<S>),
         (sample, at): (usize, usize),
         place: [F<S>; 2],
-        inverse_w: F<S>,
+        nearness: F<S>,
     ) -> Fragments<'_, S> {
         let zero = [splat(simd, 0.0); 3];
         Fragments {
             place,
-            inverse_w,
+            nearness,
             lead: load3(simd, &self.lead[sample], at),
             second: if state.stage == Stage::Mixed { load3(simd, &self.second[sample], at) } else { zero },
             mapped: if state.maps.is_some() {

@@ -6,19 +6,18 @@ use crate::lanes::{Simd, V3, each, lanes, splat3};
 use crate::look::Look;
 use crate::mapped_pixels::MappedPixel;
 use crate::placed::TILE;
+use crate::screen::Screen;
 use crate::state::{Stage, State};
-use crate::vertices::Screen;
 use halfway_lighting::equations::vector::normalize_or_zero;
 use halfway_lighting::equations::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
 use halfway_texture::environment::SurroundingsData;
 
-/// The ray from the eye through a pixel of a tile, as far as depth 1.
-fn way(screen: &Screen, tile: [u32; 2], place: [f32; 2]) -> [f32; 3] {
-    let [x, y] = each!(axis in 2 => {
+/// The ray through a pixel of a tile: x and y where w is 1.
+fn way(screen: &Screen, tile: [u32; 2], place: [f32; 2]) -> [f32; 2] {
+    each!(axis in 2 => {
         let pixel = place[axis] + tile[axis] as f32 * TILE as f32;
         pixel * screen.way_step[axis] + screen.way_start[axis]
-    });
-    [x, y, -1.0]
+    })
 }
 
 impl MappedPixel<'_> {
@@ -34,7 +33,7 @@ impl MappedPixel<'_> {
         let normals = self.normals(state);
         let front = self.normal(state, normals.as_ref(), way, look.screen.way_step);
         let n = if back { front.map(|x| -x) } else { front };
-        let v = if look.pass.local_viewer { normalize_or_zero(way.map(|x| -x)) } else { [0.0, 0.0, 1.0] };
+        let v = if look.pass.local_viewer { normalize_or_zero([-way[0], -way[1], 1.0]) } else { [0.0, 0.0, 1.0] };
         let side = state.side(look.pass, back);
         let alpha = lobe_exponent(state.reflectance, self.gloss(normals.as_ref(), side.shininess).exponent);
         let seen = around.map.at(around.direction(mirrored(n, v)), around.map.level_of(lobe_angle(alpha)));
@@ -64,7 +63,8 @@ fn sky<S: Simd>(simd: S, look: &Look, around: &SurroundingsData, at: usize) -> V
     let mut colors = splat3(simd, [0.0; 3]);
     for lane in 0..lanes::<S>() {
         let place = [(at + lane) % TILE, (at + lane) / TILE].map(|pixels| pixels as f32);
-        let direction = around.direction(way(look.screen, look.tile, place));
+        let [x, y] = way(look.screen, look.tile, place);
+        let direction = around.direction(look.pass.lens.sight([x, y, -1.0]));
         let color = around.map.at(direction, around.sky.unwrap_or_default());
         for c in 0..3 {
             colors[c][lane] = around.strength * color[c];

@@ -13,11 +13,12 @@ use crate::pass::{DrawCall, Pass, PixelFormat};
 use crate::pieces::{PIECE_TRIANGLES, Piece, Pieces};
 use crate::placed::TILE;
 use crate::planes::{LaneSlopes, Planes, Slopes};
+use crate::screen::Screen;
 use crate::shade::{Even, shader_of};
 use crate::state::{Stage, State};
 use crate::surroundings::behind;
 use crate::triangle::{Batch, Corners, Covering};
-use crate::vertices::{PlacedPiece, Screen, Vertices};
+use crate::vertices::{PlacedPiece, Vertices};
 use fearless_simd::prelude::*;
 use halfway_lighting::Samples;
 use halfway_lighting::record::InstanceRecord;
@@ -205,7 +206,7 @@ impl Worker {
             while left != 0 {
                 let lane = left.trailing_zeros() as usize % MOST_LANES;
                 left &= left - 1;
-                let [a, b, c] = triangles[at + lane].map(|corner| self.vertices.inverse_w[usize::from(corner)]);
+                let [a, b, c] = triangles[at + lane].map(|corner| self.vertices.nearness[usize::from(corner)]);
                 let first = [batch.bounds[0][lane], batch.bounds[2][lane]];
                 if self.nearest.hides_tiny((batch.pixels[lane], first), max_one(max_one(a, b), c)) {
                     shown &= !(1 << (at + lane));
@@ -221,7 +222,7 @@ impl Worker {
         let place = (look.tile, &work.covering);
         each_part(vertices, triangle, look.screen, place, |mut ready| {
             let back = ready.back;
-            ready.planes.set_face(&faces.each[usize::from(back)][number], work.state);
+            ready.planes.set_face(&faces.each[usize::from(back)][number], work.state, &look.pass.lens);
             if work.state.maps.is_some() {
                 let [left, _, top, _] = ready.edges.bounds;
                 let mut mapped = MappedTriangle::large(
@@ -290,7 +291,7 @@ impl Worker {
                 if work.state.paints() {
                     planes.paint = Slopes::of_lane(&batch.slopes(simd, lane, each!(k in 3 => &v.paint[numbers[k]])));
                 }
-                planes.set_face(&self.faces.each[usize::from(back)][number], work.state);
+                planes.set_face(&self.faces.each[usize::from(back)][number], work.state, &look.pass.lens);
                 if work.state.maps.is_some() {
                     let slopes = |values: [&[f32; 4]; 3]| Slopes::of_lane(&batch.slopes_near(simd, lane, values));
                     let first = [batch.bounds[0][lane], batch.bounds[2][lane]];
@@ -415,7 +416,7 @@ fn groups_of<S: Simd>(triangles: &[[u8; 3]], shown: u64) -> u32 {
     groups
 }
 
-/// The least and the greatest 1/w of corners.
+/// The least and the greatest nearness of corners.
 #[inline(always)]
 fn range([a, b, c]: [&[f32; 4]; 3]) -> [f32; 2] {
     [min_one(min_one(a[0], b[0]), c[0]), max_one(max_one(a[0], b[0]), c[0])]

@@ -343,7 +343,7 @@ impl Batch {
         self.slopes_from(simd, lane, to_first, values)
     }
 
-    /// The depth plane of a small lane, from 1/w and further numbers at its corners.
+    /// The nearness of a lane that is small, from that and more at its corners.
     #[inline(always)]
     pub(crate) fn depth<S: Simd>(&self, simd: S, lane: usize, values: [&[f32; 4]; 3]) -> DepthPlane {
         if self.few >> lane & 1 == 0 {

@@ -9,6 +9,7 @@ use crate::lighting::{Points, reflected, tinted, tinted_terms, to_viewer};
 use crate::pass::Pass;
 use crate::pieces::{Piece, Pieces};
 use crate::placed::TILE;
+use crate::screen::Screen;
 use crate::state::{Stage, State};
 use fearless_simd::prelude::*;
 use halfway_lighting::record::InstanceRecord;
@@ -30,39 +31,13 @@ pub(crate) const TOO_NEAR: i32 = 1;
 /// It is too far from the tile for 16 bits; [`Vertices::places`] holds a nearer point on the same side.
 pub(crate) const FAR_AWAY: i32 = 0b10_0000;
 
-/// The projection of eye space onto the picture and its tiles.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Screen {
-    pub(crate) near: f32,
-    /// Pixels = x/w·scale + center; y counts downward.
-    pub(crate) scale: [f32; 2],
-    pub(crate) center: [f32; 2],
-    /// The step from the ray through a pixel to that through the next, and the ray through the first.
-    pub(crate) way_step: [f32; 2],
-    pub(crate) way_start: [f32; 2],
-}
-
-impl Screen {
-    pub(crate) fn new(pass: &Pass) -> Self {
-        let [width, height] = pass.size.map(f64::from);
-        let [x, y] = pass.lens.scale.map(f64::from);
-        Self {
-            near: pass.lens.near,
-            scale: [(0.5 * width * x) as f32, (-0.5 * height * y) as f32],
-            center: [(0.5 * width) as f32, (0.5 * height) as f32],
-            way_step: [(2.0 / (width * x)) as f32, (-2.0 / (height * y)) as f32],
-            way_start: [((1.0 / width - 1.0) / x) as f32, ((1.0 - 1.0 / height) / y) as f32],
-        }
-    }
-}
-
 /// The position of a piece relative to a tile.
 pub(crate) enum PlacedPiece {
     /// It covers no pixel of the tile.
     Beside,
     /// It may cover some.
     Anywhere,
-    /// It is small: the first and last column and row of the tile that it may cover, and its greatest 1/w.
+    /// It is small: the first and last column and row of pixels of the tile that it may cover, and its greatest nearness.
     Box { first: [usize; 2], last: [usize; 2], nearest: f32 },
 }
 
@@ -75,6 +50,7 @@ pub(crate) struct Vertices {
     /// In pixels.
     pub(crate) screen: [List; 2],
     pub(crate) inverse_w: List,
+    pub(crate) nearness: List,
     /// In steps of the grid.
     pub(crate) grid: [[i32; SLOTS]; 2],
     /// x and y from the tile's center, in 65,536ths of a step of the grid: rounded to whole steps they are `grid`.
@@ -84,7 +60,7 @@ pub(crate) struct Vertices {
     pub(crate) any_code: i32,
     /// Normal, color of the front, color of the back; in painted draws the vertex color, opacity first.
     pub(crate) raw: [List; 13],
-    /// 1/w and the first three interpolated numbers over w, of front and back.
+    /// The nearness and the first three interpolated numbers over w, of front and back.
     pub(crate) lead: [Box<Attributes>; 2],
     /// Whether the leading numbers are colors, which differ between the sides.
     pub(crate) sides_lead: bool,
@@ -103,6 +79,7 @@ impl Vertices {
             eye: [[0.0; SLOTS]; 3],
             screen: [[0.0; SLOTS]; 2],
             inverse_w: [0.0; SLOTS],
+            nearness: [0.0; SLOTS],
             grid: [[0; SLOTS]; 2],
             places: [[0; 2]; SLOTS],
             codes: [0; SLOTS],
@@ -185,9 +162,9 @@ impl Vertices {
         for at in (0..piece.vertex_count as usize).step_by(lanes::<S>()) {
             let p = load3(simd, &mesh.positions, piece.first_vertex as usize + at);
             let p = transformed(simd, &instance.eye_from_model, p);
-            let (code, grid, inverse_w) = self.project::<S, AT_HAND>(simd, at, p, screen, center);
+            let (code, grid, nearness) = self.project::<S, AT_HAND>(simd, at, p, screen, center);
             any_code |= code;
-            nearest = max::<S>(inverse_w, nearest);
+            nearest = max::<S>(nearness, nearest);
             for axis in 0..2 {
                 low[axis] = SimdBase::min(low[axis], grid[axis]);
                 high[axis] = SimdBase::max(high[axis], grid[axis]);
@@ -225,7 +202,7 @@ impl Vertices {
         }
     }
 
-    /// Stores the position on the picture; returns the codes, the position on the grid, and 1/w.
+    /// Stores the place on the screen; returns the codes, the place on the grid, and the nearness.
     #[inline(always)]
     fn project<S: Simd, const AT_HAND: bool>(
         &mut self,
@@ -235,10 +212,12 @@ impl Vertices {
         screen: &Screen,
         center: [i32; 2],
     ) -> (I<S>, [I<S>; 2], F<S>) {
-        let w = -p[2];
-        let (zero, one) = (splat_i(simd, 0), splat(simd, 1.0));
-        let in_front = w.simd_ge(splat(simd, screen.near));
-        let inverse_w = one / if AT_HAND { w } else { in_front.select(w, one) };
+        let depth = -p[2];
+        let zero = splat_i(simd, 0);
+        let in_front = depth.simd_ge(splat(simd, screen.lens.near));
+        let shown = if AT_HAND { depth } else { in_front.select(depth, splat(simd, 1.0)) };
+        let inverse_w = screen.inverse_w(simd, shown);
+        let nearness = screen.nearness(simd, shown, inverse_w);
         let mut code = if AT_HAND { zero } else { in_front.select(zero, splat_i(simd, TOO_NEAR)) };
         let (mut relative, mut on_grid) = ([zero; 2], [zero; 2]);
         for axis in 0..2 {
@@ -271,13 +250,14 @@ impl Vertices {
             store::<S>(p[axis], &mut self.eye[axis], at);
         }
         store::<S>(inverse_w, &mut self.inverse_w, at);
+        store::<S>(nearness, &mut self.nearness, at);
         let (low, high) = relative[0].interleave(relative[1]);
         store_i::<S>(low, self.places.as_flattened_mut(), 2 * at);
         store_i::<S>(high, self.places.as_flattened_mut(), 2 * at + lanes::<S>());
         if !AT_HAND {
             store_i::<S>(code, &mut self.codes, at);
         }
-        (code, on_grid, inverse_w)
+        (code, on_grid, nearness)
     }
 
     #[inline(always)]
@@ -315,8 +295,9 @@ impl Vertices {
     /// Interleaves each vertex's numbers.
     #[inline(always)]
     fn gather<S: Simd>(&mut self, simd: S, at: usize, state: &State) {
-        let Self { raw, inverse_w, lead: [lead, lead_of_backs], second: [second, second_of_backs], .. } = self;
-        let i = load(simd, inverse_w, at);
+        let Self { raw, inverse_w, nearness, lead: [lead, lead_of_backs], second: [second, second_of_backs], .. } =
+            self;
+        let i = (load(simd, nearness, at), load(simd, inverse_w, at));
         let normal = each!(k in 3 => &raw[k]);
         let front = each!(k in 3 => &raw[3 + k]);
         let back = each!(k in 3 => &raw[6 + k]);
@@ -355,15 +336,15 @@ pub(crate) fn places_of<S: Simd>(groups: u32) -> impl Iterator<Item = usize> {
 }
 
 #[inline(always)]
-fn over_w_alone<S: Simd>(simd: S, inverse_w: F<S>, to: &mut Attributes, at: usize) {
+fn over_w_alone<S: Simd>(simd: S, (nearness, _): (F<S>, F<S>), to: &mut Attributes, at: usize) {
     let zero = splat(simd, 0.0);
-    store_fours::<S>([inverse_w, zero, zero, zero], to, at);
+    store_fours::<S>([nearness, zero, zero, zero], to, at);
 }
 
 #[inline(always)]
-fn over_w<S: Simd>(simd: S, inverse_w: F<S>, raw: [&List; 3], to: &mut Attributes, at: usize) {
+fn over_w<S: Simd>(simd: S, (nearness, inverse_w): (F<S>, F<S>), raw: [&List; 3], to: &mut Attributes, at: usize) {
     let [a, b, c] = each!(k in 3 => load(simd, raw[k], at) * inverse_w);
-    store_fours::<S>([inverse_w, a, b, c], to, at);
+    store_fours::<S>([nearness, a, b, c], to, at);
 }
 
 /// Points transformed by rows.

@@ -11,7 +11,7 @@ use bevy_math::{DMat3, DQuat, Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_asset::{Assets, Handle};
 use halfway_lighting::{BackMaterial, Blend, GlobalAmbient, Mask, VertexColors, ViewTolerance};
-use halfway_lighting::{Camera, Samples};
+use halfway_lighting::{Camera, Projection, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
 use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
 
@@ -115,8 +115,7 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Ent
         framing_camera(outline(objects), width as f32 / height as f32)
     });
     let camera = Camera {
-        fov_y: entry.fov_y_deg.to_radians(),
-        near: entry.near,
+        projection: Projection::Perspective { fov_y: entry.fov_y_deg.to_radians(), near: entry.near },
         background: LinearRgba::from_f32_array_no_alpha(scene.background),
         viewer: scene.viewer,
         samples: if scene.samples == 4 { Samples::Four } else { Samples::One },

@@ -3,7 +3,7 @@
 use std::ops::Bound::Excluded;
 
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::{Camera, Encoding, Faces, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer};
+use halfway_lighting::{Encoding, Faces, Projection, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer};
 
 use crate::check::{Check, KeyProblem, Limits, direction};
 use crate::described;
@@ -139,7 +139,7 @@ keys! {
         fov_y_deg: f32 = 45.0
             => Limits::Numbers(Range::new(Excluded(0.0), Excluded(180.0), "degrees above 0 and below 180")),
         /// Distance of the near plane, above 0. There is no far plane.
-        near: f32 = Camera::default().near => Limits::Numbers(Range::POSITIVE),
+        near: f32 = Projection::default().near() => Limits::Numbers(Range::POSITIVE),
     }
 }
 

@@ -11,7 +11,7 @@ use bevy_input::{ButtonInput, InputPlugin, InputSystems};
 use bevy_math::{Vec2, Vec3};
 use bevy_time::{Real, Time, TimePlugin, TimeSystems};
 use bevy_transform::components::Transform;
-use halfway_lighting::Camera;
+use halfway_lighting::{Camera, Projection};
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// A camera that mouse and keys move around a target; needs [`OrbitCameraPlugin`].
@@ -63,8 +63,9 @@ impl OrbitCamera {
         self.orbit = self.start;
     }
 
-    /// Applies the user's input; `fov_y` is the camera's vertical field of view.
-    fn apply(&mut self, camera_input: &CameraInput, fov_y: f32) {
+    /// Applies the user's input, under the camera's projection; returns that of the moved camera.
+    fn apply(&mut self, camera_input: &CameraInput, projection: Projection) -> Projection {
+        let before = self.orbit.distance;
         if camera_input.reset {
             self.reset();
         }
@@ -73,12 +74,13 @@ impl OrbitCamera {
         }
         if camera_input.pan != Vec2::ZERO {
             // The height of the picture at the target, so that objects there follow the pointer.
-            let height = 2.0 * self.orbit.distance * (fov_y * 0.5).tan();
+            let height = projection.height_at(self.orbit.distance);
             self.orbit.pan(-camera_input.pan.x * height, camera_input.pan.y * height);
         }
         if camera_input.zoom != 0.0 {
             self.zoom(camera_input.zoom.exp());
         }
+        projection.moved(before, self.orbit.distance)
     }
 }
 
@@ -88,7 +90,7 @@ impl OrbitCamera {
 /// |---|---|
 /// | left drag | turns: half a turn over the height of the [`DragArea`] |
 /// | right, middle or Shift + left drag | pans: objects at the target follow the pointer |
-/// | wheel | zooms, a tenth nearer or farther a line |
+/// | wheel | zooms, a tenth nearer or farther a line; an orthographic picture shows a tenth less or more |
 /// | arrow keys | turn, 90° a second |
 /// | + and − | zoom, by e a second |
 /// | Home, R | back to the start |
@@ -229,7 +231,7 @@ fn drive(
     mut input: Input,
     area: Res<DragArea>,
     time: Res<Time<Real>>,
-    mut cameras: Query<(&mut OrbitCamera, &mut Transform, Option<&Camera>)>,
+    mut cameras: Query<(&mut OrbitCamera, &mut Transform, Option<&mut Camera>)>,
 ) {
     let camera_input = input.camera_input(time.delta_secs(), area.0);
     for (mut orbit, mut transform, camera) in &mut cameras {
@@ -239,7 +241,13 @@ fn drive(
             orbit.shown = Some(orbit.orbit);
         }
         if camera_input != CameraInput::default() {
-            orbit.apply(&camera_input, camera.map_or(Camera::default().fov_y, |camera| camera.fov_y));
+            let projection = camera.as_ref().map_or_else(Projection::default, |camera| camera.projection);
+            let moved = orbit.apply(&camera_input, projection);
+            if let Some(mut camera) = camera
+                && moved != projection
+            {
+                camera.projection = moved;
+            }
         }
         if orbit.shown != Some(orbit.orbit) {
             transform.translation = orbit.orbit.eye();

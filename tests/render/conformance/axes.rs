@@ -15,6 +15,7 @@ struct Setup {
     light: PointLight,
     cone: Cone,
     viewer: Viewer,
+    projection: Projection,
     /// A pane with the same material before the object.
     pane: bool,
 }
@@ -56,7 +57,7 @@ const fn cone(name: &'static str, set: fn(&mut Setup)) -> Value {
 }
 
 /// The first value of each axis is the default of all rows.
-const AXES: [&[Value]; 9] = [
+const AXES: [&[Value]; 10] = [
     &[
         value("phong shading", |setup| setup.object.shading = Some(Shading::Phong)),
         value("gouraud", |setup| setup.object.shading = Some(Shading::Gouraud)),
@@ -99,6 +100,17 @@ const AXES: [&[Value]; 9] = [
     &[
         value("local viewer", |setup| setup.viewer = Viewer::Local),
         value("infinite viewer", |setup| setup.viewer = Viewer::Infinite),
+    ],
+    &[
+        value("perspective", |setup| setup.projection = Projection::default()),
+        value("orthographic", |setup| setup.projection = Projection::orthographic(2.6)),
+        // The camera stands amid the objects then.
+        value("orthographic, from behind the camera", |setup| {
+            setup.projection = Projection::orthographic(2.6).with_near(-9.0);
+        }),
+        value("orthographic, between two planes", |setup| {
+            setup.projection = Projection::Orthographic { height: 2.6, near: 2.5, far: Some(3.4) };
+        }),
     ],
     &[
         value("uniform", |setup| setup.object.frames = vec![turn().with_scale(Vec3::splat(0.9))]),
@@ -149,6 +161,7 @@ impl Setup {
             light: point_light(),
             cone: Cone { cutoff: 0.36, inner: None, exponent: 1.0 },
             viewer: Viewer::Local,
+            projection: Projection::default(),
             pane: false,
         }
     }
@@ -156,6 +169,10 @@ impl Setup {
     fn scene(&self) -> Scene {
         let mut scene = Scene::seen_from(Vec3::new(0.1, 1.7, 2.5), Vec3::new(0.0, 0.05, 0.0)).ambient(0.1);
         scene.camera.viewer = self.viewer;
+        scene.camera.projection = self.projection;
+        if self.projection.near() < 0.0 {
+            scene.eye.translation += 3.0 * scene.eye.forward();
+        }
         scene.camera.background = LinearRgba::rgb(0.02, 0.05, 0.09);
         scene.things.push(self.object.clone());
         if self.object.blend {

@@ -44,7 +44,7 @@ fn terms(scene: &mut Scene, diffuse: Frequency, specular: Frequency) {
     scene.things.iter_mut().for_each(|thing| thing.terms = Some(Terms { diffuse, specular }));
 }
 
-const CHANGES: [Change; 9] = [
+const CHANGES: [Change; 10] = [
     ("one light", |_| ()),
     ("no lights", |scene| scene.lamps.clear()),
     ("130 lights", |scene| scene.lamps = lights(130).lamps),
@@ -63,7 +63,8 @@ const CHANGES: [Change; 9] = [
         scene.ambient = LinearRgba::rgb(0.5, 0.5, 0.5);
         scene.things.iter_mut().for_each(|thing| thing.faces = Some(Faces::Back));
     }),
-    ("through the near plane", |scene| scene.camera.near = 2.6),
+    ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
+    ("orthographic", |scene| scene.camera.projection = Projection::orthographic(2.7)),
     ("beside what has none, instanced", |scene| {
         for x in [-1.2, 1.2] {
             let at = Transform::from_xyz(x, 0.3, 0.0).with_scale(Vec3::splat(0.4));

@@ -47,7 +47,7 @@ fn each_material(scene: &mut Scene, change: impl Fn(&mut Material)) {
 }
 
 /// Settings that make no difference to its shading.
-const CHANGES: [Change; 14] = [
+const CHANGES: [Change; 16] = [
     ("all", |_| ()),
     ("harmonics alone", |scene| each_material(scene, |material| material.specular = LinearRgba::BLACK)),
     ("mirrored alone", |scene| each_material(scene, |material| material.diffuse = LinearRgba::BLACK)),
@@ -71,7 +71,12 @@ const CHANGES: [Change; 14] = [
             thing.frames.push(Transform::from_scale(Vec3::new(-0.9, 1.2, 0.7)));
         });
     }),
-    ("through the near plane", |scene| scene.camera.near = 2.6),
+    ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
+    ("orthographic", |scene| scene.camera.projection = Projection::orthographic(2.7)),
+    ("orthographic sky", |scene| {
+        scene.camera.projection = Projection::orthographic(2.7);
+        scene.environment.as_mut().expect("one").sky = true;
+    }),
 ];
 
 const REFLECTANCES: [(&str, Reflectance); 3] = [

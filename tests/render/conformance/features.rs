@@ -125,6 +125,11 @@ fn materials_and_lights() -> Vec<(&'static str, Scene)> {
         ("a hemisphere among nine lights", lights(9).lit(outside())),
         ("nine lights", lights(9)),
         ("130 lights", lights(130)),
+        ("an orthographic camera and 20 lights", {
+            let mut scene = lights(20);
+            scene.camera.projection = Projection::orthographic(3.0);
+            scene
+        }),
     ]
 }
 
@@ -168,10 +173,31 @@ fn places_views_and_meshes() -> Vec<(&'static str, Scene)> {
             "a rolled camera with a wide view",
             with(|scene| {
                 scene.eye.rotation *= Quat::from_rotation_z(0.8);
-                scene.camera.fov_y = 1.6;
+                scene.camera.projection = Projection::perspective(1.6);
             }),
         ),
-        ("cut by the near plane", with(|scene| scene.camera.near = 2.9)),
+        ("cut by the near plane", with(|scene| scene.camera.projection = scene.camera.projection.with_near(2.9))),
+        (
+            "an orthographic camera amid the objects",
+            with(|scene| {
+                scene.camera.projection = Projection::orthographic(3.0).with_near(-4.0);
+                scene.eye.translation *= 0.1;
+            }),
+        ),
+        (
+            "an orthographic camera far away",
+            with(|scene| {
+                scene.camera.projection = Projection::orthographic(3.0);
+                scene.eye.translation -= 30.0 * scene.eye.forward();
+            }),
+        ),
+        (
+            "an orthographic plan",
+            with(|scene| {
+                let (camera, eye) = Camera::orthographic(4.0).framing((Vec3::ZERO, 1.6), Vec3::NEG_Y);
+                (scene.camera.projection, scene.eye) = (camera.projection, eye);
+            }),
+        ),
         ("normals that cancel", {
             let (left, right) = ([1.0, 0.0, 0.1], [-1.0, 0.0, 0.1]);
             Scene::in_eye_space()

@@ -33,7 +33,7 @@ fn mapped(sampling: Sampling, scale: f32) -> Scene {
     scene
 }
 
-const CHANGES: [Change; 7] = [
+const CHANGES: [Change; 8] = [
     ("one light", |_| ()),
     ("no lights", |scene| scene.lamps.clear()),
     ("20 lights", |scene| scene.lamps = lights(20).lamps),
@@ -47,7 +47,8 @@ const CHANGES: [Change; 7] = [
             *thing = thing.clone().faces(Faces::Both).back(other_material()).blended(0.8);
         }
     }),
-    ("through the near plane", |scene| scene.camera.near = 2.6),
+    ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
+    ("orthographic", |scene| scene.camera.projection = Projection::orthographic(2.7)),
     ("beside what has none, instanced", |scene| {
         for x in [-1.2, 1.2] {
             let at = Transform::from_xyz(x, 0.3, 0.0).with_scale(Vec3::splat(0.4));
@@ -221,7 +222,7 @@ const ALL: [(MapKind, f32); 7] = [
 ];
 const HEIGHTS: (MapKind, f32) = (MapKind::Height, 0.04);
 
-const CIRCUMSTANCES: [Change; 8] = [
+const CIRCUMSTANCES: [Change; 9] = [
     ("one light", |_| ()),
     ("20 lights", |scene| scene.lamps = lights(20).lamps),
     ("colours, ambient that attenuates", CHANGES[3].1),
@@ -236,7 +237,8 @@ const CIRCUMSTANCES: [Change; 8] = [
     ("mirrored and stretched", |scene| {
         scene.things.iter_mut().for_each(|thing| thing.frames.push(Transform::from_scale(Vec3::new(0.8, -1.1, 1.3))));
     }),
-    ("through the near plane", |scene| scene.camera.near = 2.6),
+    ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
+    ("orthographic", |scene| scene.camera.projection = Projection::orthographic(2.7)),
     ("masked, matched", |scene| {
         scene.view_reflectance = Some(Reflectance::BlinnPhongMatched);
         for thing in &mut scene.things {

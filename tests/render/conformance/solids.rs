@@ -23,7 +23,7 @@ fn cut_from(solid: SolidTexture) -> Scene {
     scene
 }
 
-const CHANGES: [Change; 11] = [
+const CHANGES: [Change; 12] = [
     ("no lights", |scene| scene.lamps.clear()),
     ("20 lights", |scene| scene.lamps = lights(20).lamps),
     ("colours, ambient that attenuates", |scene| {
@@ -39,7 +39,8 @@ const CHANGES: [Change; 11] = [
     ("mirrored and stretched", |scene| {
         scene.things.iter_mut().for_each(|thing| thing.frames.push(Transform::from_scale(Vec3::new(0.8, -1.1, 1.3))));
     }),
-    ("through the near plane", |scene| scene.camera.near = 2.6),
+    ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
+    ("orthographic", |scene| scene.camera.projection = Projection::orthographic(2.7)),
     ("beside what has none, instanced", |scene| {
         for x in [-1.2, 1.2] {
             let at = Transform::from_xyz(x, 0.3, 0.0).with_scale(Vec3::splat(0.4));

@@ -15,7 +15,7 @@ const DISTANCES: [i32; 9] = [1, 3, 5, 7, 9, 11, 13, 15, 17];
 fn spawn(world: &mut World, distance: f32) {
     let half = GAPS as f32;
     // From −half to half across, −1 to 1 upward at distance 1: a column is two units wide.
-    let camera = Camera { fov_y: 2.0 * 1f32.atan(), near: 1.0, ..Camera::default() };
+    let camera = Camera::perspective(2.0 * 1f32.atan()).with_near(1.0);
     world.spawn((camera, Transform::default()));
     let quad = |[left, right]: [f32; 2], depth: f32| {
         [(left, -1.5), (right, -1.5), (right, 1.5), (left, 1.5)].map(|(x, y)| Vec3::new(x, y, -1.0) * depth)

@@ -15,7 +15,7 @@ fn toward() -> Vec3 {
 /// A sphere with its light exactly behind it: no visible point is lit.
 fn picture(level: u32, shading: Shading, mode: Mode) -> Result<Image, ChartError> {
     drawn(mode, |world| {
-        let camera = Camera { fov_y: 2.0 * (1.08_f32 / DISTANCE).atan(), ..Camera::default() };
+        let camera = Camera::perspective(2.0 * (1.08_f32 / DISTANCE).atan());
         world.spawn((camera, Transform::from_translation(DISTANCE * toward()).looking_at(Vec3::ZERO, Vec3::Y)));
         sun(world, -toward());
         show(world, UvSphere::new(1.0, 2 * level, level), Material::matte(LinearRgba::WHITE), shading);

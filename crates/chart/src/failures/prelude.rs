@@ -51,7 +51,7 @@ pub(super) fn camera(world: &mut World, from: Vec3, up: Vec3) {
 /// is at a tenth of its distance.
 pub(super) fn camera_above(world: &mut World, distance: f32, half: f32) {
     let fov_y = (2.0 * (f64::from(half) / f64::from(distance)).atan()) as f32;
-    let camera = Camera { fov_y, near: 0.1 * distance, ..Camera::default() };
+    let camera = Camera::perspective(fov_y).with_near(0.1 * distance);
     world.spawn((camera, Transform::from_xyz(0.0, 0.0, distance)));
 }
 

@@ -34,7 +34,7 @@ impl Plugin for ManyLights {
                 let floor = meshes.add(Plane { size: EDGE, divisions: CELLS });
                 commands.spawn((Mesh3d(floor), Material::BRASS, Shading::Phong, Reflectance::BlinnPhong));
                 let above = Transform::from_xyz(0.0, 1.2 * EDGE, 0.1).looking_at(Vec3::ZERO, Vec3::Y);
-                commands.spawn((Camera { fov_y: 1.0, ..Camera::default() }, above, Moving));
+                commands.spawn((Camera::perspective(1.0), above, Moving));
                 scene.spawn_lights(&mut commands);
             })
             .add_systems(Update, |mut cameras: Query<&mut Transform, With<Moving>>| {

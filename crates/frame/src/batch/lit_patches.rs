@@ -21,7 +21,6 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
 use halfway_lighting::bounds::Patch;
-use halfway_lighting::equations::Eye;
 use halfway_lighting::record::{InstanceRecord, SurfaceRecord};
 use halfway_lighting::{InvalidValue, Tolerance};
 
@@ -67,7 +66,7 @@ pub fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     lit.begin(&lights);
     let view = &objects.view;
     let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
-    let shared = Shared { lights: &lights, view, encoding: values.encoding(), viewer: camera.viewer };
+    let shared = Shared { lights: &lights, view, encoding: values.encoding(), eye: camera.eye() };
     lit.add_all(&objects, values.share(), shared, &mut *backend, &mut report);
     report.materials = lit.table.materials_in_use();
     report.lights_assigned = lit.lists.assigned;
@@ -179,12 +178,12 @@ impl LitPatches {
 
     /// Adds patches, each with the lists of its lights.
     fn add_listed(&mut self, object: &LitObject, key: &DrawKey, seen: &[u32], shared: Shared) {
-        let Shared { lights, encoding, viewer, .. } = shared;
+        let Shared { lights, encoding, eye, .. } = shared;
         let reflector = object.shown.reflecting.reflector(object.key.terms);
         // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
         let ambient = if object.key.is_painted() { Vec3::ZERO } else { lights.ambient };
         let steps = f64::from(object.tolerance.steps);
-        let listing = reflector.listing(ambient, Eye::in_eye_space(viewer), encoding, steps);
+        let listing = reflector.listing(ambient, eye, encoding, steps);
         let mut records = Vec::with_capacity(seen.len());
         for patch in seen {
             let patch = object.in_eye_space(object.geometry.patches.shape(*patch));

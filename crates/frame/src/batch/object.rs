@@ -7,12 +7,10 @@ use crate::lights::lists::Reflector;
 use crate::lights::slots::Lists;
 use crate::view::camera::View;
 use bevy_math::Vec3;
-use halfway_lighting::equations::{Coefficients, specular_exponent};
+use halfway_lighting::equations::{Coefficients, Eye, specular_exponent};
 use halfway_lighting::record::Cull;
 use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
-use halfway_lighting::{
-    Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Terms, Viewer,
-};
+use halfway_lighting::{Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Terms};
 use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
 
 /// The components that say how an object reflects light.
@@ -57,7 +55,7 @@ pub(crate) struct Shared<'a> {
     pub(crate) view: &'a View,
     /// The encoding of the picture's bytes; `None` for floating point.
     pub(crate) encoding: Option<Encoding>,
-    pub(crate) viewer: Viewer,
+    pub(crate) eye: Eye<f32>,
 }
 
 /// Inputs for an object's key from its place, its mesh and its shading.
@@ -154,7 +152,7 @@ impl Reflecting<'_> {
 
     /// The draw. A term that the material or the lights leave black is not in it.
     pub(crate) fn key(&self, look: &Appearance, circumstances: Circumstances, shared: Shared) -> DrawKey {
-        let Shared { lights, viewer, .. } = shared;
+        let Shared { lights, eye, .. } = shared;
         let [reflects_ambient, reflects_diffuse, reflects_specular] = look.reflects;
         let lit = !lights.is_empty();
         let attenuated_ambient = lights.needs.attenuated_ambient && reflects_ambient;
@@ -169,7 +167,7 @@ impl Reflecting<'_> {
             terms,
             per_instance: false,
             blinn_phong: self.reflectance != Reflectance::Phong,
-            local_viewer: viewer == Viewer::Local,
+            local_viewer: eye.is_local(),
             attenuated_ambient,
             shared_color: !lights.needs.own_specular,
             ranged: lights.needs.range,

@@ -5,8 +5,8 @@ use crate::geometry::shape::{ANGLE_SLACK, PatchShape, sphere_around};
 use crate::view::camera::View;
 use crate::view::matrices::ModelView;
 use bevy_math::Vec3;
-use halfway_lighting::Faces;
 use halfway_lighting::equations::vector::length;
+use halfway_lighting::{Faces, Lens};
 use halfway_mesh::Mesh;
 
 /// The bounding sphere of a part of a mesh and the directions it faces, in model space; fits in a cache line.
@@ -95,8 +95,9 @@ impl Facing {
         facing
     }
 
-    /// Whether no triangle turns its front, or its `back`, to an eye that is so far from the centre of the patch.
-    fn hides(&self, eye: Vec3, back: bool) -> bool {
+    /// Whether no triangle turns its front, or its `back`, to an eye that is so far from the centre of the patch; where
+    /// `w` is 0, to one that is infinitely far away in that direction.
+    fn hides(&self, (eye, w): (Vec3, f32), back: bool) -> bool {
         let v = if back { -eye } else { eye };
         let [x, y, z] = v.to_array().map(|at| usize::from(at < 0.0));
         let Vec3 { x: a, y: b, z: c } = v.abs();
@@ -111,7 +112,8 @@ impl Facing {
         } else {
             0.5 * ((a + b - c) * of_xy + (a + c - b) * of_xz + (b + c - a) * of_yz)
         };
-        most / Self::PARTS + self.beyond[usize::from(back)] < -ANGLE_SLACK * (a + b + c)
+        // Where nothing is known this is infinite, or no number, and hides nothing.
+        most / Self::PARTS + w * self.beyond[usize::from(back)] < -ANGLE_SLACK * (a + b + c)
     }
 }
 
@@ -120,11 +122,35 @@ impl Facing {
 pub(crate) struct Sight<'a> {
     pub(super) model_view: &'a ModelView,
     pub(super) view: &'a View,
-    /// The eye in model space, and whether back faces are drawn rather than front faces; `None` where both are or the
+    /// Where the eye is, and whether back faces are drawn rather than front faces; `None` where both are or the
     /// transform has no inverse.
-    pub(super) eye: Option<(Vec3, bool)>,
+    pub(super) eye: Option<(ModelEye, bool)>,
     /// None of it is beside the picture.
     is_inside: bool,
+}
+
+/// The eye in model space, by homogeneous coordinates: a point, or a direction toward an eye that is infinitely far
+/// away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ModelEye {
+    xyz: Vec3,
+    /// 1 for a point, 0 for a direction.
+    w: f32,
+}
+
+impl ModelEye {
+    fn new(lens: &Lens, model_view: &ModelView) -> Self {
+        // In single precision the determinant leaves the number range where a scale is 7·10¹² or 10⁻¹³.
+        let model_from_eye = model_view.eye_from_model.as_daffine3().inverse();
+        let [x, y, z, w] = lens.eye_position();
+        let xyz = model_from_eye.matrix3 * Vec3::new(x, y, z).as_dvec3() + f64::from(w) * model_from_eye.translation;
+        Self { xyz: xyz.as_vec3(), w }
+    }
+
+    /// From a point of model space to the eye.
+    fn from_point(&self, p: Vec3) -> (Vec3, f32) {
+        (self.xyz - self.w * p, self.w)
+    }
 }
 
 impl<'a> Sight<'a> {
@@ -135,25 +161,19 @@ impl<'a> Sight<'a> {
             Faces::Front => Some(false),
             Faces::Back => Some(true),
         };
-        // In single precision the determinant leaves the number range where a scale is 7·10¹² or 10⁻¹³.
-        let eye = model_view.eye_from_model.as_daffine3().inverse().translation.as_vec3();
-        let eye = side.filter(|_| eye.is_finite()).map(|back| (eye, back));
+        let eye = ModelEye::new(&view.lens, model_view);
+        let eye = side.filter(|_| eye.xyz.is_finite()).map(|back| (eye, back));
         let (center, radius) = whole.sphere(model_view);
-        Self { model_view, view, eye, is_inside: view.projection.holds(center, radius) }
+        Self { model_view, view, eye, is_inside: view.lens.holds(center.to_array(), radius) }
     }
 
     /// An upper bound of how many pixels a way of a unit of the mesh takes, anywhere in a sphere of the mesh where the
-    /// picture shows it; no less for a sphere that holds another. A way of length e at (x, y, −z) in eye space moves
-    /// its end by at most f·e/z·√(1 + (x² + y²)/z²), f pixels being the way of a point at depth 1 that moves by 1.
+    /// picture shows it; no less for a sphere that holds another.
     pub(super) fn pixels_per_unit(&self, (center, radius): (Vec3, f32)) -> f32 {
-        let View { projection, pixels_at_unit_depth, .. } = self.view;
         let scale = self.model_view.largest_scale();
-        let (center, radius) = (self.model_view.eye_from_model.transform_point3(center), radius * scale);
-        let [x, y] = projection.scale;
-        let nearest = (-center.z - radius).max(projection.near);
-        let aside2 = (center.truncate().length() + radius).powi(2) / (nearest * nearest);
-        let slope2 = aside2.min(1.0 / (x * x) + 1.0 / (y * y));
-        pixels_at_unit_depth * scale * (1.0 + slope2).sqrt() / nearest
+        let center = self.model_view.eye_from_model.transform_point3(center);
+        let step = self.view.pixels_at_unit_w * scale;
+        self.view.lens.largest_step(step, (center.to_array(), radius * scale))
     }
 }
 
@@ -186,11 +206,11 @@ impl Outline {
     /// drawn. Never false for one that shows.
     pub(crate) fn is_seen(&self, sight: &Sight) -> bool {
         // The first leaves out about half, and takes no longer.
-        let faces = sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye - self.center, back));
+        let faces = sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye.from_point(self.center), back));
         faces
             && (sight.is_inside || {
                 let (center, radius) = self.sphere(sight.model_view);
-                sight.view.projection.sees(center, radius)
+                sight.view.lens.sees(center.to_array(), radius)
             })
     }
 }
@@ -216,10 +236,13 @@ mod tests {
         for _ in 0..10_000 {
             let [n, eye] = [(); 2].map(|()| Vec3::new(random(), random(), random()).normalize_or(Vec3::X));
             let facing = Facing::new(std::iter::once((n, [Vec3::ZERO; 3])));
-            let hides = [facing.hides(eye, false), facing.hides(eye, true)];
+            let hides = [facing.hides((eye, 1.0), false), facing.hides((eye, 1.0), true)];
             let shows = n.dot(eye);
             assert!(!(hides[0] && shows > 0.0 || hides[1] && shows < 0.0), "{n} from {eye}");
-            assert!(!Facing::UNKNOWN.hides(eye, false) && !Facing::UNKNOWN.hides(eye, true));
+            for w in [0.0, 1.0] {
+                assert!(!Facing::UNKNOWN.hides((eye, w), false) && !Facing::UNKNOWN.hides((eye, w), true));
+                assert!([false, true].into_iter().all(|back| facing.hides((eye, w), back) == hides[usize::from(back)]));
+            }
             turned += usize::from(shows < 0.0);
             hidden += usize::from(hides[0]);
         }

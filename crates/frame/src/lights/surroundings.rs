@@ -62,7 +62,7 @@ fn placed(light: &EnvironmentLight, map: EnvironmentMap, view: &View) -> Surroun
     let columns = environment_from_world * view.eye_from_world.matrix3.transpose();
     let rows = columns.transpose().to_cols_array_2d().map(|row| row.map(|number| number as f32));
     let mean = map.harmonics().polynomial().map(|color| color.map(|channel| channel as f32));
-    let pixel = 1.0 / f64::from(view.pixels_at_unit_depth);
+    let pixel = f64::from(view.pixel_angle);
     let sky = light.sky.then(|| map.level_of(pixel).max(0.0) as f32);
     SurroundingsData { strength: light.strength, rows, mean, sky, map }
 }

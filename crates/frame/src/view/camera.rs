@@ -1,11 +1,11 @@
-//! The view: the camera's matrices in f64, its projection and its frustum.
+//! The view: the camera's matrices in f64, and its projection.
 
 use crate::error::{RenderError, bad_transform, label};
 use crate::report::FrameReport;
 use bevy_ecs::prelude::*;
-use bevy_math::{DAffine3, DMat3, DVec3, UVec2, Vec3};
+use bevy_math::{DAffine3, DMat3, DVec3, UVec2};
 use bevy_transform::components::{GlobalTransform, Transform};
-use halfway_lighting::{Camera, Propagation, Reflectance, Shading, propagation};
+use halfway_lighting::{Camera, Lens, Propagation, Reflectance, Shading, propagation};
 
 /// The view of a frame. Holds after [`RenderSet::View`](crate::sets::RenderSet::View).
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
@@ -14,10 +14,13 @@ pub struct View {
     pub camera: Option<Camera>,
     /// World to eye: the inverse of the camera's rotation and translation, in f64.
     pub eye_from_world: DAffine3,
-    /// Eye to clip.
-    pub projection: Projection,
-    /// The length in pixels of a segment of length 1 across the view at a depth of 1.
-    pub pixels_at_unit_depth: f32,
+    /// Eye to clip, in world units. Its depth buffer spans the visible objects after
+    /// [`RenderSet::Select`](crate::RenderSet::Select).
+    pub lens: Lens,
+    /// How many pixels a length of 1 across the view takes where w of clip space is 1.
+    pub pixels_at_unit_w: f32,
+    /// The angle between the rays of neighbouring pixels in the middle of the picture, in radians.
+    pub pixel_angle: f32,
     /// The shading of objects that name none.
     pub shading: Shading,
     /// The reflectance of objects that name none.
@@ -36,52 +39,16 @@ impl View {
     pub fn unit(&self) -> f64 {
         2f64.powi(self.unit_exponent)
     }
+
+    /// The lens for the eye space of the shaders and the rasterizer, in which a world unit is [`unit`](Self::unit) long.
+    pub fn lens_of_shaders(&self) -> Lens {
+        self.lens.in_unit(self.unit() as f32)
+    }
 }
 
 /// The size of the picture that is drawn next, in pixels.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PictureSize(pub UVec2);
-
-/// A perspective projection with reversed depth (near = 1) and an infinite far plane:
-/// clip = (`scale`·xy, `near`, −z).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Projection {
-    /// cot(fov/2) / aspect and cot(fov/2).
-    pub scale: [f32; 2],
-    /// Distance of the near plane.
-    pub near: f32,
-}
-
-impl Projection {
-    /// The projection of `camera` onto a target of `width` × `height` pixels.
-    pub fn new(camera: &Camera, width: u32, height: u32) -> Self {
-        let y = 1.0 / (f64::from(camera.fov_y) * 0.5).tan();
-        let x = y * f64::from(height) / f64::from(width);
-        Self { scale: [x as f32, y as f32], near: camera.near }
-    }
-
-    /// Whether a sphere in eye space may reach the picture. Never false for one that does.
-    pub fn sees(&self, center: Vec3, radius: f32) -> bool {
-        let [x, y] = self.scale;
-        let depth = -center.z;
-        // The side planes pass through the eye: |scale · x| ≤ depth. Their normals' lengths scale the radius.
-        let side = |scale: f32, offset: f32| {
-            scale * offset.abs() - depth <= radius * (scale * scale + 1.0).sqrt() * (1.0 + 1e-5)
-        };
-        depth + radius >= self.near && side(x, center.x) && side(y, center.y)
-    }
-
-    /// Whether no part of a sphere in eye space is beside the picture or before the near plane. Never true for one of
-    /// which a part is.
-    pub(crate) fn holds(&self, center: Vec3, radius: f32) -> bool {
-        let [x, y] = self.scale;
-        let depth = -center.z;
-        let side = |scale: f32, offset: f32| {
-            scale * offset.abs() - depth <= -radius * (scale * scale + 1.0).sqrt() * (1.0 + 1e-5)
-        };
-        depth - radius * (1.0 + 1e-5) >= self.near && side(x, center.x) && side(y, center.y)
-    }
-}
 
 type CameraQuery<'w, 's> = Query<
     'w,
@@ -131,12 +98,14 @@ pub(crate) fn update(
     if eye_from_world != view.eye_from_world {
         view.epoch += 1;
     }
-    let projection = Projection::new(camera, size.x, size.y);
+    let lens: Lens = camera.projection.lens(size.to_array());
+    let rows = size.y as f32;
     *view = View {
         camera: Some(*camera),
         eye_from_world,
-        projection,
-        pixels_at_unit_depth: 0.5 * projection.scale[1] * size.y as f32,
+        lens,
+        pixels_at_unit_w: lens.pixels_at_unit_w(rows),
+        pixel_angle: lens.pixel_angle(rows),
         shading: shading.copied().unwrap_or_default(),
         reflectance: reflectance.copied().unwrap_or_default(),
         epoch: view.epoch,

@@ -77,6 +77,7 @@ pub(crate) fn select(
     }
     let is_shown = shown.by_entity();
     let mut farthest = 0.0;
+    let mut depths = [f64::INFINITY, f64::NEG_INFINITY];
     for (entity, mesh, transform, order, name) in objects.iter().filter(|(entity, ..)| is_shown(*entity)) {
         report.objects += 1;
         let Some(mesh) = meshes.get(&mesh.0) else {
@@ -97,12 +98,14 @@ pub(crate) fn select(
         let bounds = mesh.bounds();
         let center = eye_from_model.transform_point3(bounds.center().as_dvec3());
         let radius = f64::from(bounds.radius()) * largest_scale(&eye_from_model.matrix3);
-        if view.projection.sees(center.as_vec3(), radius as f32) {
+        if view.lens.sees(center.as_vec3().to_array(), radius as f32) {
             farthest = f64::max(farthest, center.length() + radius);
+            depths = [f64::min(depths[0], -center.z - radius), f64::max(depths[1], -center.z + radius)];
             seen.push((*order, entity));
         }
     }
     view.unit_exponent = unit_exponent(farthest);
+    view.lens = view.lens.fitted(depths.map(|depth| depth as f32));
     seen.sort_unstable();
     visible.0.extend(seen.iter().map(|&(_, entity)| entity));
     report.visible = visible.0.len() as u32;

@@ -61,6 +61,11 @@ pub enum Eye<T> {
 }
 
 impl<T: Real> Eye<T> {
+    /// Whether v differs from point to point.
+    pub fn is_local(&self) -> bool {
+        matches!(self, Self::Local(_))
+    }
+
     /// The viewer in eye space: the eye at the origin, or v = (0, 0, 1).
     pub fn in_eye_space(viewer: Viewer) -> Self {
         let (zero, one) = (T::zero(), T::one());

@@ -15,6 +15,7 @@ mod matched;
 mod normals;
 mod place;
 mod precision;
+mod projection;
 mod properties;
 mod reflectance;
 mod shade;

@@ -2,9 +2,9 @@
 
 use halfway_lighting::lights::Kind;
 use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord};
-use halfway_lighting::{Frequency, Samples, Terms};
+use halfway_lighting::{Frequency, Lens, Samples, Terms};
 use halfway_mesh::{Mesh, UvSphere};
-use halfway_raster::{DrawCall, Lens, Pass, Pieces, PixelFormat, RasterError, TriangleOrder, VertexLists};
+use halfway_raster::{DrawCall, Pass, Pieces, PixelFormat, RasterError, TriangleOrder, VertexLists};
 
 /// The frequency of shading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +60,7 @@ impl Scene {
 /// A lens with this vertical angle in degrees.
 pub(crate) fn lens([width, height]: [u32; 2], degrees: f64) -> Lens {
     let y = 1.0 / (degrees.to_radians() * 0.5).tan();
-    Lens { scale: [(y * f64::from(height) / f64::from(width)) as f32, y as f32], near: 0.1 }
+    Lens::perspective([(y * f64::from(height) / f64::from(width)) as f32, y as f32], 0.1)
 }
 
 /// A mesh cut into pieces.

@@ -3,10 +3,10 @@
 use crate::common::{Scene, Shading, at, draw, pieces, sphere};
 use halfway_lighting::lights::Kind;
 use halfway_lighting::record::{Cull, InstanceRecord, LightRecord};
-use halfway_lighting::{Frequency, Reflectance, Samples, Terms};
+use halfway_lighting::{Frequency, Lens, Reflectance, Samples, Terms};
 use halfway_mesh::{Mesh, Plane};
 use halfway_raster::{
-    ClearTiles, DrawCall, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth,
+    ClearTiles, DrawCall, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth,
     VertexLists,
 };
 
@@ -62,7 +62,7 @@ fn ball(n: u32, order: TriangleOrder) -> Pieces {
 fn small(shading: Shading) -> Scene {
     let mut scene = sphere(true, shading).expect("a sound mesh");
     let mesh = ball(18, TriangleOrder::Clustered);
-    scene.lens = Lens { scale: [2.4, 2.4], near: 0.1 };
+    scene.lens = Lens::perspective([2.4, 2.4], 0.1);
     scene.draws = vec![draw(&mesh, 1, shading)];
     scene.meshes = vec![mesh];
     scene
@@ -72,7 +72,7 @@ fn small(shading: Shading) -> Scene {
 fn floor_and_glass(samples: Samples, pixels: PixelFormat) -> Scene {
     let mut scene = small(Shading::Phong);
     scene.size = [333, 217];
-    scene.lens = Lens { scale: [1.125, 1.75], near: 0.1 };
+    scene.lens = Lens::perspective([1.125, 1.75], 0.1);
     (scene.samples, scene.pixels) = (samples, pixels);
     let floor = pieces(&Mesh::from(Plane { size: 200.0, divisions: 3 }), TriangleOrder::Clustered).expect("sound");
     let glass = ball(7, TriangleOrder::Kept);

@@ -1,10 +1,10 @@
 //! Coverage of triangles, against an exact fill rule in 64 bits on the same corners of the grid.
 
 use crate::common::{Scene, Shading, at, draw};
-use halfway_lighting::Samples;
 use halfway_lighting::record::{Cull, MaterialRecord, SurfaceRecord};
+use halfway_lighting::{Lens, Samples};
 use halfway_raster::{
-    ClearTiles, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth, VertexLists,
+    ClearTiles, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VectorWidth, VertexLists,
 };
 use proptest::prelude::*;
 
@@ -36,7 +36,7 @@ fn scene(triangles: &[[[f32; 3]; 3]], samples: Samples, blend: bool) -> Scene {
         samples,
         pixels: PixelFormat::Floats,
         clear: [0.0; 3],
-        lens: Lens { scale: [1.0, 1.0], near: 0.5 },
+        lens: Lens::perspective([1.0, 1.0], 0.5),
         lights: Vec::new(),
         lists: Vec::new(),
         surfaces: vec![SurfaceRecord { front: white, back: white, ..SurfaceRecord::default() }],

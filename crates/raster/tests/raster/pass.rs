@@ -1,8 +1,8 @@
 //! Passes without lighting: order, blending, formats, ranges of indices, and refused input.
 
 use crate::common::{Scene, Shading, at, draw, lens, sphere};
-use halfway_lighting::Samples;
 use halfway_lighting::record::{Cull, LightRecord, MaterialRecord, SurfaceRecord};
+use halfway_lighting::{Lens, Samples};
 use halfway_raster::{
     ClearTiles, DrawCall, LARGEST_SIDE, Output, Pieces, PixelFormat, RasterError, RasterOptions, Rasterizer,
     TriangleOrder, VectorWidth, VertexLists,
@@ -205,11 +205,13 @@ fn refusal(scene: &Scene) -> RasterError {
 #[test]
 fn invalid_passes_are_refused_by_name() {
     type Spoil = fn(&mut Scene);
-    let cases: [(&str, Spoil); 10] = [
+    let cases: [(&str, Spoil); 12] = [
         ("each side must be", |scene| scene.size = [LARGEST_SIDE + 1, 4]),
         ("each side must be", |scene| scene.size = [0, 4]),
         ("clear is NaN", |scene| scene.clear[1] = f32::NAN),
         ("near is 0", |scene| scene.lens.near = 0.0),
+        ("near is NaN", |scene| scene.lens = Lens::orthographic([1.0; 2], [f32::NAN, 1.0])),
+        ("far is inf", |scene| scene.lens = Lens::orthographic([1.0; 2], [0.0, f32::INFINITY])),
         ("eye_from_model is inf", |scene| scene.instances[0].eye_from_model[1][1] = f32::INFINITY),
         ("base is -1", |scene| scene.surfaces[0].front.base[2] = -1.0),
         ("opacity is 1.5", |scene| scene.surfaces[0].back.opacity = 1.5),

@@ -9,11 +9,9 @@ use halfway_lighting::lights::Kind;
 use halfway_lighting::record::{
     Cull, InstanceRecord, LightRange, LightRecord, MaterialRecord, SurfaceLights, SurfaceRecord,
 };
-use halfway_lighting::{Frequency, Reflectance, Samples, Terms};
+use halfway_lighting::{Frequency, Lens, Reflectance, Samples, Terms};
 use halfway_mesh::{Mesh, UvSphere};
-use halfway_raster::{
-    ClearTiles, Lens, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VertexLists,
-};
+use halfway_raster::{ClearTiles, Output, Pieces, PixelFormat, RasterOptions, Rasterizer, TriangleOrder, VertexLists};
 
 type V = [f64; 3];
 
@@ -365,7 +363,7 @@ fn a_sliver_has_the_colors_of_its_corners_and_not_of_the_grids() {
     let mut call = draw(&mesh, 1, Shading::Constant);
     (call.colored, call.cull) = (true, Cull::None);
     let mut scene = case(Shading::Constant, Reflectance::Phong).scene;
-    (scene.size, scene.lens) = ([side as u32; 2], Lens { scale: [1.0; 2], near: 0.1 });
+    (scene.size, scene.lens) = ([side as u32; 2], Lens::perspective([1.0; 2], 0.1));
     let white = MaterialRecord { base: [1.0; 3], opacity: 1.0, ..MaterialRecord::default() };
     (scene.surfaces[0].front, scene.surfaces[0].back) = (white, white);
     (scene.instances, scene.draws, scene.meshes) = (vec![at([0.0; 3], 0)], vec![call], vec![mesh]);

@@ -63,7 +63,7 @@ impl Oracle {
             for (number, layers) in self.layers(tile, &part, offset).iter().enumerate() {
                 let (row, column) = (number as u32 / width, number as u32 % width);
                 let [x, y] = [origin[0] + column, origin[1] + row].map(f64::from);
-                let behind = self.scene.behind(self.scene.view.ray(x + offset[0], y + offset[1]));
+                let behind = self.scene.behind(self.scene.view.direction(x + offset[0], y + offset[1]));
                 let color = layers.color(&self.scene, behind, self.clamp);
                 let (sum, covered) = &mut part.pixels[number];
                 *sum = [0, 1, 2].map(|k| sum[k] + share * color[k]);
@@ -91,7 +91,7 @@ impl Oracle {
                 {
                     let [u, v] = at(x, y);
                     let pieces = group.iter().copied().filter(|piece| piece.reaches(u, v));
-                    scene.pieces(solid, pieces, scene.view.ray(u, v)).for_each(|hit| add(x, y, hit));
+                    scene.pieces(solid, pieces, scene.view.at(u, v)).for_each(|hit| add(x, y, hit));
                 }
                 continue;
             }
@@ -101,7 +101,7 @@ impl Oracle {
                 let rows = covered(low.y, high.y, offset[1], part.origin[1], height);
                 for (y, x) in grid(rows, covered(low.x, high.x, offset[0], part.origin[0], part.width)) {
                     let [u, v] = at(x, y);
-                    if let Some(hit) = meet(scene.view.ray(u, v)) {
+                    if let Some(hit) = meet(scene.view.at(u, v)) {
                         add(x, y, hit);
                     }
                 }

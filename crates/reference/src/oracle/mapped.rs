@@ -144,7 +144,7 @@ impl OracleScene {
         let solid = &self.solids[hit.solid];
         let map = solid.maps.as_ref()?.slots[kind as usize].as_ref()?;
         let (triangle, weights) = hit.on_triangle()?;
-        Some((map, self.point_on_map(solid, map, triangle, weights, hit.depth)))
+        Some((map, self.point_on_map(solid, map, triangle, weights)))
     }
 
     /// The solid texture's factor of ambient and diffuse light: 1 without one.
@@ -153,37 +153,37 @@ impl OracleScene {
         let (Some(cut_from), Some((triangle, weights))) = (&solid.cut_from, hit.on_triangle()) else { return [1.0; 3] };
         let positions = solid.mesh.positions();
         let places = solid.vertices(triangle).map(|number| positions[number].as_dvec3().to_array());
-        let (place, ways) = self.interpolated(solid, places, triangle, weights, hit.depth);
+        let (place, ways) = self.interpolated(solid, places, triangle, weights);
         cut_from.color_at(place, ways)
     }
 
-    fn point_on_map(&self, solid: &Solid, map: &SolidMap, triangle: u32, weights: [f64; 3], depth: f64) -> PointOnMap {
+    fn point_on_map(&self, solid: &Solid, map: &SolidMap, triangle: u32, weights: [f64; 3]) -> PointOnMap {
         let uvs = solid.vertices(triangle).map(|number| map.uvs[number]);
-        let (uv, footprint) = self.interpolated(solid, uvs, triangle, weights, depth);
+        let (uv, footprint) = self.interpolated(solid, uvs, triangle, weights);
         PointOnMap { uv, footprint }
     }
 
     /// Interpolates numbers at the corners of a triangle, and gives their change from a pixel to the next, along x and
     /// along y.
     ///
-    /// On a triangle u = Σ uᵢVᵢ/Σ Vᵢ, where Vᵢ is the volume of the ray with the edge opposite to corner i. Vᵢ is
-    /// linear over the picture, so the derivative follows by the quotient rule.
+    /// On a triangle u = Σ uᵢVᵢ/Σ Vᵢ, where Vᵢ is the volume of the point of the picture with the edge opposite to
+    /// corner i. Vᵢ is linear over the picture, so the derivative follows by the quotient rule.
     fn interpolated<const N: usize>(
         &self,
         solid: &Solid,
         of_corners: [[f64; N]; 3],
         triangle: u32,
         weights: [f64; 3],
-        depth: f64,
     ) -> ([f64; N], [[f64; N]; 2]) {
-        let [a, b, c] = solid.triangle(triangle);
+        let [a, b, c] = solid.triangle(triangle).map(|corner| self.view.homogeneous(corner));
         let here: [f64; N] = std::array::from_fn(|k| (0..3).map(|i| weights[i] * of_corners[i][k]).sum::<f64>());
         let [u, v, w] = weights;
-        let ray = (a * u + b * v + c * w) / depth;
+        let sum: DVec3 = a * u + b * v + c * w;
+        let at = sum / -sum.z;
         let normals = [b.cross(c), c.cross(a), a.cross(b)];
-        let sum: f64 = normals.iter().map(|n| n.dot(ray)).sum();
-        let first = self.view.ray(0.0, 0.0);
-        let footprint = [self.view.ray(1.0, 0.0), self.view.ray(0.0, 1.0)].map(|next| {
+        let sum: f64 = normals.iter().map(|n| n.dot(at)).sum();
+        let first = self.view.at(0.0, 0.0);
+        let footprint = [self.view.at(1.0, 0.0), self.view.at(0.0, 1.0)].map(|next| {
             let grown = normals.map(|n| n.dot(next - first));
             std::array::from_fn(|k| (0..3).map(|i| (of_corners[i][k] - here[k]) * grown[i]).sum::<f64>() / sum)
         });

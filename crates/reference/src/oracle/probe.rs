@@ -36,35 +36,36 @@ impl Oracle {
     /// the first pixel is (0.5, 0.5). Points outside the picture have no defined result.
     pub fn probe(&self, x: f64, y: f64) -> Probe {
         let layers = self.layers_of(&self.hits(x, y));
+        let ray = self.scene.view.ray(self.scene.view.at(x, y));
         let nearest = layers.visible(&self.scene).min_by(|a, b| a.depth.total_cmp(&b.depth));
         let nearest = nearest.map(|hit| Nearest {
             object: self.scene.solids[hit.solid].entity,
             triangle: hit.on_triangle().map(|(triangle, _)| triangle),
             front: hit.front,
             depth: hit.depth,
-            position: self.scene.view.world_from_point(self.scene.view.ray(x, y) * hit.depth),
+            position: self.scene.view.world_from_point(ray.origin + ray.direction * hit.depth),
         });
-        Probe { color: layers.color(&self.scene, self.scene.behind(self.scene.view.ray(x, y)), self.clamp), nearest }
+        Probe { color: layers.color(&self.scene, self.scene.behind(ray.direction), self.clamp), nearest }
     }
 
     /// Where a point of the world lies on the picture, or beside it, in pixels from its top left corner; `None` before
-    /// the near plane.
+    /// the near plane and beyond the far one.
     pub fn project(&self, world: DVec3) -> Option<(f64, f64)> {
         let eye = self.scene.view.eye_from_point(world);
-        (-eye.z >= self.scene.view.near).then(|| self.scene.view.pixel(eye).into())
+        self.scene.view.shows(-eye.z).then(|| self.scene.view.pixel(eye).into())
     }
 
     /// Everything on the ray through a point of the picture, hidden or not, in the order of drawing.
     fn hits(&self, x: f64, y: f64) -> Vec<Hit> {
-        let (scene, ray) = (&self.scene, self.scene.view.ray(x, y));
+        let (scene, at) = (&self.scene, self.scene.view.at(x, y));
         let near: Vec<&Primitive> = self.tiles().at(x, y).filter(|primitive| primitive.reaches(x, y)).collect();
         let mut hits = Vec::new();
         for group in near.chunk_by(|a, b| a.solid == b.solid) {
             let solid = group[0].solid;
             if scene.solids[solid].smooth.is_some() {
-                hits.extend(scene.pieces(solid, group.iter().copied(), ray));
+                hits.extend(scene.pieces(solid, group.iter().copied(), at));
             } else {
-                hits.extend(group.iter().filter_map(|primitive| scene.triangle(primitive)(ray)));
+                hits.extend(group.iter().filter_map(|primitive| scene.triangle(primitive)(at)));
             }
         }
         hits

@@ -3,6 +3,7 @@
 use bevy_math::{DVec2, DVec3};
 
 use super::scene::OracleScene;
+use super::view::{OracleRay, PictureView};
 
 /// A point of an object that a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,7 +141,7 @@ impl Tiles {
 /// The corners of the box, in pixels and inside the picture, that holds what lies in the hull of some points and beyond
 /// the near plane. `None` where the picture shows nothing of it.
 fn reach(scene: &OracleScene, hull: &[DVec3]) -> Option<[DVec2; 2]> {
-    let (near, size) = (scene.view.near, scene.view.size());
+    let (near, size) = (scene.view.near(), scene.view.size());
     let beyond = |p: &DVec3| -p.z >= near;
     let mut low = DVec2::INFINITY;
     let mut high = DVec2::NEG_INFINITY;
@@ -165,9 +166,10 @@ fn reach(scene: &OracleScene, hull: &[DVec3]) -> Option<[DVec2; 2]> {
 
 /// A triangle in eye space, ready to be met by rays.
 pub(super) struct RayTriangle {
-    corners: [DVec3; 3],
-    /// Normals of the planes through the eye and the edge opposite to each corner. The edge that two triangles share
-    /// has exactly opposite ones.
+    /// The corners' depths.
+    depths: [f64; 3],
+    /// Normals of the planes through the origin and the edge opposite to each corner, in homogeneous coordinates. The
+    /// edge that two triangles share has exactly opposite ones.
     normals: [DVec3; 3],
 }
 
@@ -180,19 +182,20 @@ pub(super) struct Intersection {
 }
 
 impl RayTriangle {
-    pub(super) fn new(corners: [DVec3; 3]) -> Self {
-        let [a, b, c] = corners;
-        Self { corners, normals: [b.cross(c), c.cross(a), a.cross(b)] }
+    pub(super) fn new(view: &PictureView, corners: [DVec3; 3]) -> Self {
+        let [a, b, c] = corners.map(|corner| view.homogeneous(corner));
+        Self { depths: corners.map(|corner| -corner.z), normals: [b.cross(c), c.cross(a), a.cross(b)] }
     }
 
-    /// The intersection of the line along `ray` with the triangle, before the eye or behind it.
+    /// The intersection of the line through a point of the picture with the triangle, before the camera or behind it.
+    /// The point has homogeneous coordinates with w = 1.
     ///
-    /// The edge functions are the volumes of the tetrahedra of the eye, the ray and each edge (homogeneous
+    /// The edge functions are the volumes of the tetrahedra of the origin, the point and each edge (homogeneous
     /// rasterisation, Olano and Greer 1997): they need no clipping, and are proportional to the weights. A ray through
     /// an edge belongs to the triangle that it enters when it is moved right by less than anything, or else down: the
     /// top-left rule.
-    pub(super) fn intersect(&self, ray: DVec3) -> Option<Intersection> {
-        let volumes = self.normals.map(|n| n.dot(ray));
+    pub(super) fn intersect(&self, at: DVec3) -> Option<Intersection> {
+        let volumes = self.normals.map(|n| n.dot(at));
         let inside = |i: usize| {
             let (n, volume) = (self.normals[i], volumes[i]);
             [volume, n.x, -n.y].into_iter().find(|side| *side != 0.0).map(|side| side > 0.0)
@@ -203,8 +206,8 @@ impl RayTriangle {
             return None;
         }
         let weights = volumes.map(|volume| volume / sum);
-        let depth = -(0..3).map(|i| weights[i] * self.corners[i].z).sum::<f64>();
-        // The sum is ray · (b − a)×(c − a).
+        let depth = (0..3).map(|i| weights[i] * self.depths[i]).sum();
+        // The sum is the point · (b − a)×(c − a).
         Some(Intersection { weights, depth, counter_clockwise: sum < 0.0 })
     }
 }
@@ -217,39 +220,45 @@ impl Primitive {
 }
 
 impl OracleScene {
-    /// Whether a corner of a triangle lies beside the picture or before the near plane.
+    /// Whether a corner of a triangle lies beside the picture, before the near plane or beyond the far one.
     pub(super) fn reaches_beyond(&self, primitive: &Primitive) -> bool {
         let size = self.view.size();
         let is_there = |p: &DVec3| {
             let pixel = self.view.pixel(*p);
-            -p.z >= self.view.near && pixel.cmpge(DVec2::ZERO).all() && pixel.cmple(size).all()
+            self.view.shows(-p.z) && pixel.cmpge(DVec2::ZERO).all() && pixel.cmple(size).all()
         };
         !self.solids[primitive.solid].triangle(primitive.index).iter().all(is_there)
     }
 
-    /// A function that intersects rays with a triangle: it gives a hit if a drawn side lies beyond the near plane.
+    /// The intersection of rays with a triangle: its hit if a shown side lies between the near and the far plane. A ray
+    /// is given by its point of the picture.
     pub(super) fn triangle(&self, primitive: &Primitive) -> impl Fn(DVec3) -> Option<Hit> {
         let &Primitive { solid: number, index, .. } = primitive;
         let solid = &self.solids[number];
-        let edges = RayTriangle::new(solid.triangle(index));
-        move |ray| {
-            let Intersection { weights, depth, counter_clockwise } = edges.intersect(ray)?;
+        let edges = RayTriangle::new(&self.view, solid.triangle(index));
+        move |at| {
+            let Intersection { weights, depth, counter_clockwise } = edges.intersect(at)?;
             let front = counter_clockwise != solid.mirrored;
-            let visible = depth >= self.view.near && solid.side(front).shown;
-            visible.then_some(Hit { solid: number, depth, front, place: HitPoint::Triangle(index, weights) })
+            let seen = self.view.shows(depth) && solid.side(front).shown;
+            seen.then_some(Hit { solid: number, depth, front, place: HitPoint::Triangle(index, weights) })
         }
     }
 
-    /// The hits of a ray on the pieces of one object's surface, if a drawn side lies beyond the near plane.
+    /// The hits of the ray through a point of the picture on the pieces of one object's surface, where a side that is
+    /// shown lies between the near and the far plane.
     pub(super) fn pieces<'a>(
         &self,
         number: usize,
         pieces: impl Iterator<Item = &'a Primitive>,
-        ray: DVec3,
+        at: DVec3,
     ) -> impl Iterator<Item = Hit> {
         let solid = &self.solids[number];
+        let OracleRay { origin, direction: ray } = self.view.ray(at);
+        // Hits lie beyond the origin of the ray.
+        let begin = if self.view.near() > 0.0 { 0.0 } else { 2.0 * self.view.near() - 1.0 };
+        let origin = origin + begin * ray;
         let met = solid.smooth.as_ref().map_or_else(Vec::new, |smooth| {
-            let origin = smooth.model_from_eye.translation;
+            let origin = smooth.model_from_eye.transform_point3(origin);
             let direction = smooth.model_from_eye.matrix3 * ray;
             let mut met = Vec::new();
             for piece in pieces {
@@ -260,11 +269,11 @@ impl OracleScene {
         });
         met.into_iter().filter_map(move |met| {
             // The ray's length along the view is 1, in either space.
-            let depth = met.t;
+            let depth = begin + met.t;
             let n = solid.turned(met.normal);
             let front = n.dot(ray) < 0.0;
-            let visible = depth >= self.view.near && solid.side(front).shown;
-            visible.then_some(Hit { solid: number, depth, front, place: HitPoint::Surface { p: ray * depth, n } })
+            let seen = self.view.shows(depth) && solid.side(front).shown;
+            seen.then_some(Hit { solid: number, depth, front, place: HitPoint::Surface { p: origin + ray * met.t, n } })
         })
     }
 }

@@ -32,6 +32,8 @@ pub(super) struct OracleScene {
     pub(super) ambient: Color,
     pub(super) lights: Vec<Light<f64>>,
     pub(super) environment: Option<OracleEnvironment>,
+    /// From the nearest to the farthest object between the near and the far plane.
+    pub(super) depth_span: f64,
     /// In drawing order: opaque ones in spawn order, then blended ones, the farthest first.
     pub(super) solids: Vec<Solid>,
 }
@@ -43,11 +45,32 @@ impl OracleScene {
         let (ambient, lights) = lights(world, &defaults.view)?;
         let environment = OracleEnvironment::from_world(world, &defaults.view)?;
         let solids = solids(world, &defaults)?;
-        let viewer = equations::Eye::in_eye_space(defaults.camera.viewer);
+        let depth_span = depth_span(&defaults.view, &solids);
+        let viewer = defaults.camera.eye();
         let Camera { background, samples, intensity, .. } = defaults.camera;
         let background = rgb(background);
-        Ok(Self { view: defaults.view, viewer, background, samples, intensity, ambient, lights, environment, solids })
+        Ok(Self {
+            view: defaults.view,
+            viewer,
+            background,
+            samples,
+            intensity,
+            ambient,
+            lights,
+            environment,
+            depth_span,
+            solids,
+        })
     }
+}
+
+/// From the nearest to the farthest of all corners, as far as the near and the far plane leave them. Renderers take
+/// spheres around the objects, which are larger: hence twice as much.
+fn depth_span(view: &PictureView, solids: &[Solid]) -> f64 {
+    let depths = || solids.iter().flat_map(|solid| &solid.corners).map(|corner| -corner.z);
+    let nearest = depths().fold(f64::INFINITY, f64::min).max(view.near());
+    let farthest = depths().fold(f64::NEG_INFINITY, f64::max).min(view.far());
+    2.0 * (farthest - nearest).max(0.0)
 }
 
 fn require_propagation(world: &mut World) -> Result<(), OracleError> {

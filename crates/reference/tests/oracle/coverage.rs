@@ -95,7 +95,7 @@ fn a_floor_runs_through_the_near_plane_and_behind_the_eye() {
     let corners = vec![corner(-50.0, 90.0), corner(50.0, 90.0), corner(50.0, -30.0), corner(-50.0, -30.0)];
     let floor = Mesh::new(corners, vec![0, 1, 2, 0, 2, 3]).expect("a valid floor");
     let mut stage = Stage::new();
-    stage.camera().near = 2.0;
+    stage.camera().projection = stage.camera().projection.with_near(2.0);
     stage.add(floor, glow(1.0, 1.0, 1.0));
     let (width, height) = (64, 48);
     let oracle = stage.oracle(width, height);
@@ -166,7 +166,7 @@ fn samples_share_a_pixel_that_is_half_covered() {
 fn a_wide_picture_is_put_together_from_its_tiles() {
     let (width, height) = (101, 45);
     let mut stage = Stage::new();
-    stage.world.entity_mut(stage.camera).insert(Camera { fov_y: std::f32::consts::FRAC_PI_2, ..Camera::default() });
+    stage.world.entity_mut(stage.camera).insert(Camera::perspective(std::f32::consts::FRAC_PI_2));
     stage.add_at(wall(1.0, 0.0), GlobalTransform::from_xyz(0.5, 0.25, -2.0), glow(1.0, 1.0, 1.0));
     let image = stage.draw(width, height);
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {

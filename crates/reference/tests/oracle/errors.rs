@@ -5,7 +5,9 @@ use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, Mat3, UVec2, Vec3};
 use bevy_transform::components::GlobalTransform;
 use halfway_asset::{Assets, Handle};
-use halfway_lighting::{BackMaterial, Camera, DirectionalLight, GlobalAmbient, Material, PointLight, SpotLight};
+use halfway_lighting::{
+    BackMaterial, Camera, DirectionalLight, GlobalAmbient, Material, PointLight, Projection, SpotLight,
+};
 use halfway_mesh::{Mesh, Mesh3d};
 use halfway_reference::{Oracle, OracleError};
 
@@ -49,7 +51,11 @@ fn each_error_names_the_entity_and_the_field() {
     let rows: [(&str, Spoil, &str); 15] = [
         ("no camera", |s| assert!(s.world.despawn(s.camera)), "the scene has no camera"),
         ("two cameras", |s| s.spawn(Camera::default()), "has 2 cameras"),
-        ("field of view", |s| s.camera().fov_y = 4.0, "Camera.fov_y: the value is 4.0"),
+        (
+            "field of view",
+            |s| s.camera().projection = Projection::perspective(4.0),
+            "Camera.projection.fov_y: the value is 4.0",
+        ),
         ("camera nowhere", |s| s.move_camera(nowhere()), "its GlobalTransform is [1.0,"),
         ("camera aimless", |s| s.move_camera(aimless()), "a scale that is not 0"),
         ("wall nowhere", |s| s.spoil_wall(nowhere()), "\"wall\": its GlobalTransform is [1.0,"),

@@ -10,6 +10,7 @@ mod four;
 mod grid;
 mod mutants;
 mod needles;
+mod orthographic;
 mod possible;
 mod probes;
 mod repeats;

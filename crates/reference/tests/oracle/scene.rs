@@ -21,7 +21,7 @@ impl Stage {
         let mut world = World::new();
         world.insert_resource(Assets::<Mesh>::default());
         world.insert_resource(GlobalAmbient(LinearRgba::BLACK));
-        let camera = Camera { fov_y: std::f32::consts::FRAC_PI_2, ..Camera::default() };
+        let camera = Camera::perspective(std::f32::consts::FRAC_PI_2);
         let camera = world.spawn((camera, GlobalTransform::IDENTITY)).id();
         Self { world, camera }
     }

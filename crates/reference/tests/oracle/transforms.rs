@@ -134,7 +134,7 @@ fn models_of_any_size_look_the_same_and_hold_no_nan() {
         let mut stage = Stage::new();
         {
             let mut camera = stage.camera();
-            camera.near = 0.01 * size;
+            camera.projection = camera.projection.with_near(0.01 * size);
             camera.viewer = Viewer::Local;
         }
         let mut light = PointLight::white();

@@ -260,5 +260,5 @@ fn a_missing_ambient_resource_means_its_default() {
     stage.add(wall(8.0, 2.0), Material { ambient: grey(1.0), ..chalk(0.0) });
     assert_close("Ga", stage.draw(2, 2).pixel(0, 0), [f64::from(0.1f32); 3]);
     // The camera's own defaults are taken as they are.
-    assert_eq!(stage.camera().near.to_bits(), Camera::default().near.to_bits());
+    assert_eq!(stage.camera().projection.near().to_bits(), Camera::default().projection.near().to_bits());
 }

@@ -20,8 +20,8 @@ use halfway_frame::passes::{Passes, Phase};
 use halfway_frame::report::FrameReport;
 use halfway_frame::values::{FrameValues, PixelValues};
 use halfway_frame::view::camera::{PictureSize, View};
-use halfway_lighting::{Encoding, Frequency, Viewer};
-use halfway_raster::{LARGEST_SIDE, Lens, Pass, PixelFormat};
+use halfway_lighting::{Encoding, Frequency, Lens};
+use halfway_raster::{LARGEST_SIDE, Pass, PixelFormat};
 
 impl Backend for Cpu {
     fn lights_images_by_environments(&self) -> bool {
@@ -108,7 +108,7 @@ pub(crate) fn draw(
         },
         clear: [red, green, blue],
         lens: lens(&view),
-        local_viewer: camera.viewer == Viewer::Local,
+        local_viewer: camera.eye::<f32>().is_local(),
         lights: &lit.lists.sent.records,
         lists: &lit.lists.numbers,
         surfaces: &lit.records,
@@ -132,7 +132,8 @@ pub(crate) fn draw(
 
 /// The view's projection, in its unit.
 fn lens(view: &View) -> Lens {
-    // The rasterizer refuses a distance that underflows.
-    let near = (view.projection.near * view.unit() as f32).max(f32::MIN_POSITIVE);
-    Lens { scale: view.projection.scale, near }
+    let lens = view.lens_of_shaders();
+    // A positive number that underflows would be refused.
+    let near = if view.lens.near > 0.0 { lens.near.max(f32::MIN_POSITIVE) } else { lens.near };
+    Lens { near, ..lens }
 }

@@ -1,6 +1,6 @@
 //! Defaults of keys that are left out; a written file means the same as the one read.
 
-use halfway_lighting::{Camera, Cone, Material, PointLight, Reflectance, Shading};
+use halfway_lighting::{Camera, Cone, Material, PointLight, Projection, Reflectance, Shading};
 use halfway_mesh::{Cuboid, Plane, Teapot, UvSphere};
 
 use halfway_scene::{
@@ -82,8 +82,8 @@ fn defaults_agree_with_those_of_the_components() {
     assert_eq!(LightEntry::white(LightKind::Point).light, PointLight::default());
     assert_eq!(ConeEntry::default().cutoff_deg.to_radians(), Cone::default().cutoff);
     let (scene, camera) = (SceneFile::default(), Camera::default());
-    assert_eq!(CameraEntry::default().fov_y_deg.to_radians(), camera.fov_y);
-    assert_eq!(CameraEntry::default().near, camera.near);
+    let CameraEntry { fov_y_deg, near, .. } = CameraEntry::default();
+    assert_eq!(Projection::Perspective { fov_y: fov_y_deg.to_radians(), near }, camera.projection);
     assert_eq!(scene.output, camera.encoding);
     assert_eq!(scene.viewer, camera.viewer);
     assert_eq!(scene.reflectance, Reflectance::default());

@@ -137,11 +137,26 @@ fn other_drags_pan() {
 fn panning_follows_the_field_of_view_and_the_area() {
     let mut stage = Stage::new(16);
     stage.app.insert_resource(DragArea(Vec2::new(200.0, 100.0)));
-    let camera = Camera { fov_y: FRAC_PI_2, ..Camera::default() };
+    let camera = Camera::perspective(FRAC_PI_2);
     stage.app.world_mut().entity_mut(stage.camera).insert(camera);
     stage.drag(MouseButton::Right, 50.0, 0.0);
     // 90° see 10 high at a distance of 5, and 50 pixels are half of it.
     assert!(near(stage.orbit().target.x, -5.0), "{:?}", stage.orbit());
+}
+
+#[test]
+fn the_wheel_zooms_an_orthographic_picture() {
+    let mut stage = Stage::new(16);
+    let projection = Projection::orthographic(4.0).with_near(1.0);
+    stage.app.world_mut().entity_mut(stage.camera).insert(Camera { projection, ..Camera::default() });
+    let shown = |stage: &Stage| stage.app.world().get::<Camera>(stage.camera).unwrap().projection;
+    stage.wheel(MouseScrollUnit::Line, 10.0);
+    let nearer = 5.0 * (-1.0_f32).exp();
+    assert!(near(shown(&stage).height_at(9.0), 4.0 * (-1.0_f32).exp()), "{:?}", shown(&stage));
+    // The plane stays 4 before the target.
+    assert!(near(shown(&stage).near(), nearer - 4.0), "{:?}", shown(&stage));
+    stage.press(KeyCode::Home, "").frames(1);
+    assert!(near(shown(&stage).height_at(9.0), 4.0) && near(shown(&stage).near(), 1.0), "{:?}", shown(&stage));
 }
 
 #[test]

@@ -52,10 +52,10 @@ impl Zone {
         [self.centre - self.reach, self.centre + self.reach]
     }
 
-    /// How far a point before the eye lies beyond a side, in pixels, times its depth: linear in space, so that an edge
-    /// is cut there without a division by depths near 0.
+    /// How far a point before the eye lies beyond a side, in pixels, times its w: linear in space, so that an edge is cut
+    /// there without a division by numbers near 0.
     fn beyond(&self, view: &PictureView, side: DVec2, p: DVec3) -> f64 {
-        view.pixel_by_depth(p, self.centre).dot(side) + self.reach * p.z
+        view.pixel_by_w(p, self.centre).dot(side) - self.reach * view.w(p)
     }
 
     /// Whether an outline that is clipped to the sides reaches the area.
@@ -103,13 +103,14 @@ pub(super) struct Footprint {
     pub(super) thin: bool,
     /// The part within the polygon around the disc.
     pub(super) outline: Vec<FootprintCorner>,
-    /// The least and the greatest 1/depth within the disc, widened by rounding errors.
+    /// The least and the greatest nearness within the disc, widened by rounding errors: 1/depth in a perspective, else
+    /// −depth.
     pub(super) nearness: [f64; 2],
     /// The triangle's corners, for comparison: of equal ones the bits are equal.
     pub(super) corners: [[u64; 3]; 3],
     /// Which edges cross the disc; edge i leads from corner i to the next.
     pub(super) edges: [bool; 3],
-    /// Whether the near plane cuts it within the disc.
+    /// Whether the near plane or the far one cuts it within the disc.
     pub(super) cut: bool,
     /// The distance outside its outline up to which a renderer may draw it, in pixels.
     pub(super) beside: f64,
@@ -126,15 +127,14 @@ impl Footprint {
             return None;
         }
         let [a, b, c] = corners;
-        let counter_clockwise = (b - a).cross(c - a).dot(a) < 0.0;
+        let counter_clockwise = (b - a).cross(c - a).dot(view.sight(a)) < 0.0;
         let DVec2 { x, y } = zone.centre + AT_CENTRE;
-        let ray = view.ray(x, y);
-        let met = RayTriangle::new(corners).intersect(ray).filter(|met| met.depth >= view.near);
+        let met = RayTriangle::new(view, corners).intersect(view.at(x, y)).filter(|met| view.shows(met.depth));
         let edge = |i: usize| {
             let ends = [whole(corners)[i], whole(corners)[(i + 1) % 3]];
             zone.meets(view, &clipped(view, &ends, zone))
         };
-        let near = |corner: &FootprintCorner| corner.depth() <= view.near * (1.0 + 1e-9);
+        let is_cut = |corner: &FootprintCorner| view.is_cut_at(corner.depth());
         Some(Self {
             solid: primitive.solid,
             triangle: primitive.index,
@@ -142,10 +142,10 @@ impl Footprint {
             counter_clockwise,
             at_centre: met.is_some(),
             thin: is_thin(view, corners, zone.reach),
-            nearness: nearness(view, solid, primitive.index, &outline),
+            nearness: nearness(scene, solid, primitive.index, &outline),
             corners: corners.map(|p| p.to_array().map(|x| (x + 0.0).to_bits())),
             edges: [0, 1, 2].map(edge),
-            cut: outline.iter().any(near),
+            cut: outline.iter().any(is_cut),
             beside,
             outline,
         })
@@ -189,9 +189,9 @@ fn whole(corners: [DVec3; 3]) -> [FootprintCorner; 3] {
 }
 
 /// A triangle whose sides are moved outward on the picture by a number of pixels; `None` where it comes before the near
-/// plane, or where its plane would go on behind the eye.
+/// plane or beyond the far one, or where its plane would go on behind the eye.
 fn grown(view: &PictureView, corners: &[FootprintCorner; 3], by: f64) -> Option<[FootprintCorner; 3]> {
-    if corners.iter().any(|corner| corner.depth() < view.near) {
+    if corners.iter().any(|corner| !view.shows(corner.depth())) {
         return None;
     }
     let pixels = corners.map(|corner| view.pixel(corner.p));
@@ -200,20 +200,23 @@ fn grown(view: &PictureView, corners: &[FootprintCorner; 3], by: f64) -> Option<
     let shares = [0, 1, 2].map(|i| by * pixels[(i + 1) % 3].distance(pixels[(i + 2) % 3]) / twice_area);
     let moved = [0, 1, 2].map(|i| {
         let on_picture = |k: usize| if k == i { 1.0 + shares[(i + 1) % 3] + shares[(i + 2) % 3] } else { -shares[k] };
-        // A function linear on the picture is linear in space after division by the depth.
-        let by_depth = [0, 1, 2].map(|k| on_picture(k) / corners[k].depth());
-        let nearness: f64 = by_depth.iter().sum();
-        let weights = by_depth.map(|weight| weight / nearness);
+        // A function linear on the picture is linear in space after division by w.
+        let by_w = [0, 1, 2].map(|k| on_picture(k) / view.w(corners[k].p));
+        let sum: f64 = by_w.iter().sum();
+        let weights = by_w.map(|weight| weight / sum);
         let p = weights.iter().zip(corners).map(|(weight, corner)| *weight * corner.p).sum();
-        (nearness > 0.0).then_some(FootprintCorner { p, weights })
+        (sum > 0.0).then_some(FootprintCorner { p, weights })
     });
     let [a, b, c] = moved;
     Some([a?, b?, c?])
 }
 
-/// The part of a convex outline beyond the near plane and inside the sides of a zone (Sutherland and Hodgman 1974).
+/// The part of a convex outline between the near and the far plane and inside the sides of a zone (Sutherland and Hodgman 1974).
 fn clipped(view: &PictureView, outline: &[FootprintCorner], zone: &Zone) -> Vec<FootprintCorner> {
-    let mut rest = cut(outline, |corner| corner.p.z + view.near);
+    let mut rest = cut(outline, |corner| view.near() - corner.depth());
+    if view.far().is_finite() {
+        rest = cut(&rest, |corner| corner.depth() - view.far());
+    }
     for side in &zone.sides {
         if rest.is_empty() {
             break;
@@ -258,7 +261,7 @@ fn distance(view: &PictureView, outline: &[FootprintCorner], point: DVec2) -> f6
 
 /// Whether the height of a triangle on the picture is at most twice `reach`.
 fn is_thin(view: &PictureView, corners: [DVec3; 3], reach: f64) -> bool {
-    if corners.iter().any(|corner| -corner.z < view.near) {
+    if corners.iter().any(|corner| !view.shows(-corner.z)) {
         return false;
     }
     let [a, b, c] = corners.map(|corner| view.pixel(corner));
@@ -266,22 +269,21 @@ fn is_thin(view: &PictureView, corners: [DVec3; 3], reach: f64) -> bool {
     (b - a).perp_dot(c - a).abs() <= 2.0 * reach * longest
 }
 
-/// A depth buffer in f32 holds near/depth. A renderer knows it, of a triangle, to a few roundings of the greatest one
-/// on it, from which it interpolates.
+/// A depth buffer in f32 holds near/depth, or what is linear in the depth. A renderer knows it, of a triangle, to a few
+/// roundings of the greatest one on it, from which it interpolates.
 const ROUNDINGS: f64 = 4.0 * f32::EPSILON as f64;
 
-/// The least and the greatest 1/depth of an outline, widened by the roundings of f32: those of the vertices, whose
+/// The least and the greatest nearness of an outline, widened by the roundings of f32: those of the vertices, whose
 /// depths are sums of larger terms, and those of the interpolation between them.
-fn nearness(view: &PictureView, solid: &Solid, triangle: u32, outline: &[FootprintCorner]) -> [f64; 2] {
-    let inverse = || outline.iter().map(|corner| corner.depth().recip());
+fn nearness(scene: &OracleScene, solid: &Solid, triangle: u32, outline: &[FootprintCorner]) -> [f64; 2] {
+    let view = &scene.view;
+    let all = || outline.iter().map(|corner| view.nearness(corner.depth()));
     let z = solid.eye_from_model.matrix3.row(2).abs();
     let rounding = solid.vertices(triangle).map(|vertex| {
         let position = solid.mesh.positions()[vertex].as_dvec3();
         let terms = z.dot(position.abs()) + solid.eye_from_model.translation.z.abs();
-        let depth = -solid.corners[vertex].z;
-        // In place of what lies before the near plane there are corners on it.
-        if depth > view.near { ROUNDINGS * (terms / depth).max(1.0) / depth } else { ROUNDINGS / view.near }
+        ROUNDINGS * view.nearness_error(-solid.corners[vertex].z, terms, scene.depth_span)
     });
     let rounding = rounding.into_iter().fold(0.0, f64::max);
-    [inverse().fold(f64::INFINITY, f64::min) - rounding, inverse().fold(0.0, f64::max) + rounding]
+    [all().fold(f64::INFINITY, f64::min) - rounding, all().fold(f64::NEG_INFINITY, f64::max) + rounding]
 }

@@ -59,7 +59,7 @@ impl Oracle {
         let radius =
             if self.is_uncertain(corner) { self.grid.map_or(radius, |grid| radius.max(grid.step())) } else { radius };
         // The background, too, is shaded once a pixel.
-        let behind = self.scene.behind(self.scene.view.ray(centre.x, centre.y));
+        let behind = self.scene.behind(self.scene.view.direction(centre.x, centre.y));
         match self.samples() {
             Samples::One => {
                 let shading = [&Zone::disc(centre, radius)];

@@ -52,7 +52,7 @@ impl Stack {
             shown.map(|footprint| footprint.nearness[0]).fold(f64::INFINITY, f64::min)
         };
         let certain: Vec<f64> = opaque.iter().filter(|it| it.is_certain).map(farthest).collect();
-        let cover = certain.iter().copied().fold(0.0, f64::max);
+        let cover = certain.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let layer = |footprint: usize, front: bool| {
             let values = SideColors::new(scene, &footprints[footprint], front, shading);
             Layer { footprint, front, values }

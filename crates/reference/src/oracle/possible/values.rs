@@ -138,10 +138,10 @@ const BESIDE: f64 = std::f64::consts::SQRT_2 / 512.0;
 /// rounded vertices.
 const MOST_BESIDE: f64 = 0.5;
 
-/// Whether a renderer draws a triangle in two parts, since the near plane clips it to a quadrangle. With four samples a
-/// pixel on the seam is shaded in both parts, each at the samples that it covers.
+/// Whether a renderer draws a triangle in parts, since the near plane or the far one leaves a quadrangle of it. With four samples a
+/// pixel on the seam is shaded in both parts, where the samples lie that each covers.
 fn is_in_parts(scene: &OracleScene, footprint: &Footprint) -> bool {
-    scene.solids[footprint.solid].triangle(footprint.triangle).iter().any(|corner| -corner.z < scene.view.near)
+    scene.solids[footprint.solid].triangle(footprint.triangle).iter().any(|corner| !scene.view.shows(-corner.z))
 }
 
 /// Whether the colours of a triangle are more than linear in its corners'.

@@ -50,7 +50,7 @@ impl SurroundingsRecord {
         for (record, EnvironmentLevel { side, start }) in level.iter_mut().zip(placed.map.levels()) {
             *record = [*start as u32, *side, 0, 0];
         }
-        let [x, y] = view.projection.scale;
+        let [x, y, _] = view.lens.ray([1.0; 2]).direction;
         Self {
             row0,
             row1,
@@ -60,7 +60,7 @@ impl SurroundingsRecord {
             first_angle: -placed.map.level_of(1.0_f64) as f32,
             sky_level: placed.sky.unwrap_or_default(),
             width,
-            way: [1.0 / x, 1.0 / y, 0.0, 0.0],
+            way: [x, y, 0.0, 0.0],
             levels: [placed.map.levels().len() as u32, 0, 0, 0],
             level,
         }

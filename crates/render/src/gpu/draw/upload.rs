@@ -5,7 +5,7 @@ use crate::gpu::device::Gpu;
 use crate::gpu::draw::maps::MapTextures;
 use crate::gpu::draw::surroundings::SurroundingsOnGpu;
 use crate::gpu::pipelines::cache::Pipelines;
-use crate::gpu::shaders::records::{RECORD_BYTES, ViewRecord};
+use crate::gpu::shaders::records::{RECORD_BYTES, VIEW_BYTES, ViewRecord};
 use crate::gpu::shaders::text::{COUNTED_LIGHT_BYTES, LightText, Text};
 use bevy_ecs::prelude::*;
 use halfway_asset::Assets;
@@ -193,7 +193,7 @@ impl Buffers {
         };
         let make = |group: &mut Option<_>, text, entries: &[_]| {
             if let (None, Some(layout)) = (&group, pipelines.bindings(text)) {
-                let entries = &[&[binding(0, view, 16)], entries].concat();
+                let entries = &[&[binding(0, view, VIEW_BYTES)], entries].concat();
                 let descriptor = wgpu::BindGroupDescriptor { label: Some("draw"), layout, entries };
                 *group = Some(gpu.device.create_bind_group(&descriptor));
             }

@@ -67,7 +67,7 @@ pub struct OverView<'a> {
     pub queue: &'a wgpu::Queue,
     /// The attachments that pipelines must fit.
     pub target: OverTarget,
-    /// World to clip: z/w is the depth, 1 at the near plane and 0 infinitely far away. Rounded to f32 once.
+    /// World to clip: z/w is the depth, 1 at the near plane and 0 at the far plane or infinitely far away. Rounded to f32 once.
     pub clip_from_world: Mat4,
     /// The camera and its matrices in f64, for scenes far from the origin.
     pub view: &'a View,
@@ -193,7 +193,5 @@ impl<'a> OverView<'a> {
 
 /// Eye to clip, in world units.
 fn clip_from_eye(view: &View) -> DMat4 {
-    let [x, y] = view.projection.scale.map(f64::from);
-    let near = f64::from(view.projection.near);
-    DMat4::from_cols_array_2d(&[[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, 0.0, -1.0], [0.0, 0.0, near, 0.0]])
+    DMat4::from_cols_array_2d(&view.lens.cast().matrix())
 }

@@ -191,7 +191,7 @@ struct Coordinates {
     dy: vec4f,
 }
 
-// `at` are the coordinates at the pixel's center, w the distance along the view there. at/w and 1/w are linear over the
+// `at` are the coordinates at the pixel's center, w that of clip space there. at/w and 1/w are linear over the
 // picture, so that their differences are their derivatives; the rule of quotients has those of the coordinates.
 fn coordinates(uv: vec4f, at: vec4f, w: f32) -> Coordinates {
     let over_w = at / w;

@@ -33,9 +33,19 @@ fn eye_normal(object: Object, normal: vec3f) -> vec3f {
 }
 #end
 
-// Reversed depth with an infinite far plane: z/w = near / distance.
+// Reversed depth: z/w is 1 at the near plane.
 fn clip_position(eye: vec3f) -> vec4f {
-    return vec4f(view.scale * eye.xy, view.near, -eye.z);
+    return vec4f(view.scale * eye.xy, view.depth.x * -eye.z + view.depth.y, clip_w(eye));
+}
+
+// w of clip space.
+fn clip_w(eye: vec3f) -> f32 {
+    return view.w.x * -eye.z + view.w.y;
+}
+
+// The direction in which a point is seen, of any length: from the eye to it, or along the view where rays are parallel.
+fn sight(p: vec3f) -> vec3f {
+    return view.w.x * p - vec3f(0.0, 0.0, view.w.y);
 }
 
 // The lights of a record's lists.
@@ -85,7 +95,7 @@ fn interpolated(color: vec3f) -> vec3f {
 fn fragment_normal(p: vec3f, n: vec3f, front: bool) -> vec3f {
     if GEOMETRIC_FALLBACK {
         let face = normalize_or_zero(cross(dpdx(p), dpdy(p)));
-        let toward_eye = face * select(1.0, -1.0, dot(face, p) > 0.0);
+        let toward_eye = face * select(1.0, -1.0, dot(face, sight(p)) > 0.0);
         return interpolated_normal(n, select(-toward_eye, toward_eye, front));
     }
     return normalize_or_zero(n);

@@ -2,8 +2,9 @@
 //! the WGSL texts, which a test compares.
 
 use bytemuck::{Pod, Zeroable};
-use halfway_frame::view::camera::{Projection, View};
+use halfway_frame::view::camera::View;
 use halfway_lighting::record::{InstanceRecord, SurfaceRecord};
+use halfway_lighting::{Lens, LensTerms};
 use halfway_texture::SolidTexture;
 
 pub(crate) const INSTANCE_BYTES: u64 = size_of::<InstanceRecord>() as u64;
@@ -16,16 +17,21 @@ pub(crate) const INSTANCE: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array!
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(crate) struct ViewRecord {
     pub(crate) scale: [f32; 2],
-    pub(crate) near: f32,
-    pub(crate) padding: f32,
+    /// z of clip space by the depth, and w.
+    pub(crate) depth: [f32; 2],
+    pub(crate) w: [f32; 2],
+    pub(crate) padding: [f32; 2],
 }
 
 impl From<&View> for ViewRecord {
     fn from(view: &View) -> Self {
-        let Projection { scale, near } = view.projection;
-        Self { scale, near: near * view.unit() as f32, padding: 0.0 }
+        let lens: Lens = view.lens_of_shaders();
+        let LensTerms { depth, w } = lens.terms();
+        Self { scale: lens.scale, depth, w, padding: [0.0; 2] }
     }
 }
+
+pub(crate) const VIEW_BYTES: u64 = size_of::<ViewRecord>() as u64;
 
 /// The solid that an object is cut from; `SolidData` in surface.wgsl.
 #[repr(C)]

@@ -5,9 +5,10 @@ override LISTED: bool = false;
 override LIGHTS: u32 = 0;
 
 struct View {
-    scale: vec2f,        // x and y of clip_from_eye
-    near: f32,
-    padding: f32,
+    scale: vec2f,        // x and y of clip space by those of eye space
+    depth: vec2f,        // z of clip space at the depth d = -z is depth.x * d + depth.y
+    w: vec2f,            // and w is w.x * d + w.y: d in a perspective, 1 where rays are parallel
+    padding: vec2f,
 }
 
 // Materials and lights. Of the lights, the first of their numbers in `lists`, and the count.

@@ -90,7 +90,7 @@ struct Varyings {
 #if MAPPED
     @location(11) @interpolate(perspective, centroid) uv: vec4f,
     @location(12) @interpolate(perspective, center) at: vec4f,
-    @location(13) @interpolate(perspective, center) middle: vec3f,
+    @location(13) @interpolate(perspective, center) middle: vec4f,     // and -w of clip space
 #end
 #if SOLID
     @location(14) @interpolate(perspective, centroid) place: vec4f,    // in the object's space
@@ -156,7 +156,7 @@ fn vs_surface(object: Object, vertex: Vertex) -> Varyings {
 #if TWO_SIDED
     // Of a one-sided surface the rasteriser shows the triangles that wind as the front does. It snaps vertices to a
     // grid, so that of a triangle seen edge-on, or smaller than the grid, it may find another side than n·p does.
-    front = dot(n, p) <= 0.0;
+    front = dot(n, sight(p)) <= 0.0;
     n = select(-n, n, front);
     out.is_front = u32(front);
 #end
@@ -205,7 +205,8 @@ fn vs_surface(object: Object, vertex: Vertex) -> Varyings {
 #if MAPPED
     out.uv = vertex.uv;
     out.at = vertex.uv;
-    out.middle = corner;
+    // Mesa 22.3's lavapipe crashes where the fragment shader takes w as it comes.
+    out.middle = vec4f(corner, -clip_w(corner));
 #end
 #if SOLID
     out.place = vec4f(vertex.position, 1.0);
@@ -285,7 +286,7 @@ fn relief(in: Varyings, c: Coordinates, n: vec3f) -> Relief {
     let right = way_on(7u, of_set(HEIGHT_MAP, dpdx(in.at)));
     let down = way_on(7u, of_set(HEIGHT_MAP, dpdy(in.at)));
     let rises = placings.each[7].row0.w * vec2f(dot(along, right), dot(along, down));
-    return Relief(bumped_normal(in.n, in.frame.xyz, dpdx(in.middle), dpdy(in.middle), rises, n), vec3f(), 1.0);
+    return Relief(bumped_normal(in.n, in.frame.xyz, dpdx(in.middle.xyz), dpdy(in.middle.xyz), rises, n), vec3f(), 1.0);
 }
 #end
 
@@ -380,7 +381,7 @@ fn fs_surface(
     sums = Parts(sums.ambient + of_vertices.ambient, of_vertices.diffuse, of_vertices.specular);
 #end
 #if MAPPED
-    let c = coordinates(in.uv, in.at, -in.middle.z);
+    let c = coordinates(in.uv, in.at, -in.middle.w);
 #end
 #if NORMALS_AT_FRAGMENTS
     // The exponent of highlights, and their factor.
@@ -426,7 +427,7 @@ fn fs_surface(
 #end
 #end
 #if SOLID
-    let cut = solid_color(coordinates(in.place, in.at_center, -in.middle.z));
+    let cut = solid_color(coordinates(in.place, in.at_center, -in.middle.w));
     sums = Parts(cut * sums.ambient, cut * sums.diffuse, sums.specular);
 #end
     var emission = vec3f();

@@ -11,7 +11,7 @@ struct Surroundings {
     first_angle: f32,               // log2 of the angle of the first level's texels
     sky_level: f32,
     width: u32,                     // of the texture
-    way: vec4f,                     // the way from the eye through the picture's top right corner, at depth 1
+    way: vec4f,                     // x and y of the ray through the picture's top right corner, at depth 1
     levels: vec4u,                  // how many
     level: array<vec4u, 12>,        // the number of the first texel, and texels along a face
 }

@@ -199,7 +199,7 @@ macro_rules! fields {
 /// Each record by the name of its struct.
 fn records() -> [(&'static str, (Vec<Field>, usize)); 4] {
     [
-        ("View", fields!(ViewRecord { scale, near })),
+        ("View", fields!(ViewRecord { scale, depth, w })),
         (
             "Light",
             fields!(LightRecord {
@@ -306,7 +306,7 @@ fn a_field_that_moved_is_found() {
         ("Light", "inner_scale: f32", "inner_slope: f32"),
         ("Light", "    cos_cutoff: f32,\n", "    cos_cutoff: vec4f,\n"),
         ("Material", "base: vec3f", "base: vec4f"),
-        ("View", "    near: f32,\n    padding: f32,", "    padding: f32,\n    near: f32,"),
+        ("View", "w: vec2f,", "w: vec4f,"),
         ("Material", "    emission: vec3f,", "    glow: vec3f,"),
         ("Surface", "    diffuse: vec2u,", "    padding0: vec2u,\n    diffuse: vec2u,"),
         ("Surface", "array<vec4u, 4>", "array<vec4u, 3>"),

@@ -1,7 +1,7 @@
 //! The texts of surfaces, with their bindings.
 
 use crate::gpu::device::Gpu;
-use crate::gpu::shaders::records::RECORD_BYTES;
+use crate::gpu::shaders::records::{RECORD_BYTES, VIEW_BYTES};
 use crate::gpu::shaders::switches::assembled;
 use crate::gpu::shaders::template::Template;
 use bevy_platform::collections::HashMap;
@@ -201,7 +201,7 @@ fn draw_bindings(gpu: &Gpu, lights: LightText) -> wgpu::BindGroupLayout {
     };
     let uniform = wgpu::BufferBindingType::Uniform;
     let read = wgpu::BufferBindingType::Storage { read_only: true };
-    let mut entries = vec![entry(0, uniform, 16)];
+    let mut entries = vec![entry(0, uniform, VIEW_BYTES)];
     match lights {
         LightText::Few => entries.extend([entry(1, uniform, RECORD_BYTES), entry(2, uniform, COUNTED_LIGHT_BYTES)]),
         LightText::Listed => {

@@ -1,0 +1,172 @@
+//! Projections: rays, clip space and the frustum say the same of a point.
+
+use bevy_math::Vec3;
+use halfway_lighting::equations::{Eye, ShadedPoint, view_vector};
+use halfway_lighting::{Camera, Lens, Projection, Viewer};
+use proptest::prelude::*;
+
+const SIZE: [u32; 2] = [160, 90];
+
+fn any_projection() -> impl Strategy<Value = Projection> {
+    let perspective = (0.05_f32..3.0, 0.01_f32..2.0).prop_map(|(fov_y, near)| Projection::Perspective { fov_y, near });
+    let orthographic = (0.1_f32..20.0, -5.0_f32..5.0, prop::option::of(0.5_f32..20.0))
+        .prop_map(|(height, near, span)| Projection::Orthographic { height, near, far: span.map(|span| near + span) });
+    prop_oneof![perspective, orthographic]
+}
+
+fn any_point() -> impl Strategy<Value = [f64; 3]> {
+    [-20.0..20.0, -20.0..20.0, -30.0..10.0]
+}
+
+/// Whether the picture shows a point, by clip space.
+fn is_shown(lens: &Lens<f64>, p: [f64; 3]) -> bool {
+    let [x, y, _, w] = lens.clip_from_eye(p);
+    w > 0.0 && x.abs() <= w && y.abs() <= w && lens.shows(-p[2])
+}
+
+proptest! {
+    #[test]
+    fn the_ray_through_a_point_leads_to_it(projection in any_projection(), p in any_point()) {
+        let lens: Lens<f64> = projection.lens(SIZE);
+        let depth = -p[2];
+        prop_assume!(lens.shows(depth));
+        let [x, y, _, w] = lens.fitted([depth - 1.0, depth + 1.0]).clip_from_eye(p);
+        let ray = lens.ray([x / w, y / w]);
+        for axis in 0..3 {
+            let found = ray.origin[axis] + depth * ray.direction[axis];
+            prop_assert!((found - p[axis]).abs() < 1e-12 * (1.0 + p[axis].abs()), "{found} for {}", p[axis]);
+        }
+    }
+
+    #[test]
+    fn depth_is_reversed_and_within_its_range(projection in any_projection(), p in any_point(), further in 0.01..5.0_f64) {
+        let lens: Lens<f64> = projection.lens(SIZE);
+        let [near, far] = [-p[2], -p[2] + further];
+        prop_assume!(lens.shows(near) && lens.shows(far));
+        let lens = lens.fitted([near, far]);
+        let depth_of = |depth: f64| {
+            let [_, _, z, w] = lens.clip_from_eye([p[0], p[1], -depth]);
+            z / w
+        };
+        prop_assert!(depth_of(near) > depth_of(far) && depth_of(near) <= 1.0 + 1e-12 && depth_of(far) >= 0.0);
+        prop_assert!(lens.nearness(near) > lens.nearness(far));
+    }
+
+    #[test]
+    fn a_frustum_leaves_out_no_sphere_of_which_a_point_shows(
+        projection in any_projection(),
+        center in any_point(),
+        radius in 0.0..4.0_f64,
+        direction in [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0],
+        share in 0.0..1.0_f64,
+    ) {
+        let lens: Lens<f64> = projection.lens(SIZE);
+        let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+        prop_assume!(length > 1e-3);
+        let point = [0, 1, 2].map(|axis| center[axis] + share * radius * direction[axis] / length);
+        prop_assert!(lens.sees(center, radius) || !is_shown(&lens, point));
+        prop_assert!(!lens.holds(center, radius) || is_shown(&lens, point));
+        let single: Lens = projection.lens(SIZE);
+        prop_assert!(single.sees(center.map(|x| x as f32), radius as f32 + 1e-4) || !is_shown(&lens, point));
+    }
+
+    #[test]
+    fn no_step_is_larger_on_the_picture_than_its_bound(
+        projection in any_projection(),
+        center in any_point(),
+        radius in 0.0..2.0_f64,
+        direction in [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0],
+        offset in [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0],
+    ) {
+        let lens: Lens<f64> = projection.lens(SIZE);
+        let within = offset.iter().map(|x| x * x).sum::<f64>().sqrt().max(1.0);
+        let p = [0, 1, 2].map(|axis| center[axis] + radius * offset[axis] / within);
+        prop_assume!(is_shown(&lens, p));
+        let step = [0, 1, 2].map(|axis| 1e-6 * direction[axis]);
+        let pixel = |p: [f64; 3]| {
+            let [x, y, _, w] = lens.clip_from_eye(p);
+            [x / w * 80.0, y / w * 45.0]
+        };
+        let (a, b) = (pixel(p), pixel([0, 1, 2].map(|axis| p[axis] + step[axis])));
+        let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let found = ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt();
+        let most = lens.largest_step(lens.pixels_at_unit_w(90.0) * length, (center, radius));
+        prop_assert!(found <= most * (1.0 + 1e-3) + 1e-9, "{found} of {most}");
+    }
+}
+
+#[test]
+fn planes_lie_at_both_ends_of_the_depth_buffer() {
+    let lens: Lens<f64> = Projection::Orthographic { height: 2.0, near: -3.0, far: Some(5.0) }.lens(SIZE);
+    let depth_of = |lens: &Lens<f64>, depth: f64| {
+        let [_, _, z, w] = lens.clip_from_eye([0.0, 0.0, -depth]);
+        z / w
+    };
+    assert_eq!([-3.0, 1.0, 5.0].map(|depth| depth_of(&lens, depth)), [1.0, 0.5, 0.0]);
+    let lens: Lens<f64> = Projection::Perspective { fov_y: 1.0, near: 0.5 }.lens(SIZE);
+    assert_eq!([0.5, 1.0, 1e9].map(|depth| depth_of(&lens, depth)), [1.0, 0.5, 5e-10]);
+}
+
+#[test]
+fn a_fitted_lens_spans_the_objects_and_cuts_where_it_cut() {
+    let lens: Lens = Projection::orthographic(2.0).with_near(1.0).lens(SIZE);
+    let fitted = lens.fitted([-4.0, 9.0]);
+    assert!(fitted.near == 1.0 && fitted.far > 9.0 && fitted.far < 11.0, "{fitted:?}");
+    let fitted = lens.fitted([100.0, 101.0]);
+    assert!(fitted.near > 99.0 && fitted.near < 100.0, "{fitted:?}");
+    for depths in [[f32::INFINITY, f32::NEG_INFINITY], [1.0, 1.0], [0.0, 0.0], [1e30, 1e30]] {
+        let fitted = lens.fitted(depths);
+        assert!(fitted.far > fitted.near && fitted.far.is_finite(), "{depths:?}: {fitted:?}");
+    }
+}
+
+#[test]
+fn an_orthographic_viewer_is_in_one_direction_everywhere() {
+    for p in [[0.0, 0.0, -1.0], [3.0, -2.0, -5.0], [1.0, 1.0, 4.0]] {
+        let surface = ShadedPoint { position: p, normal: [0.0, 0.0, 1.0] };
+        for viewer in [Viewer::Local, Viewer::Infinite] {
+            let camera = Camera { viewer, ..Camera::orthographic(3.0) };
+            let eye: Eye<f64> = camera.eye();
+            assert_eq!(view_vector(&surface, &eye), [0.0, 0.0, 1.0]);
+        }
+    }
+    assert!(Camera::default().eye::<f32>().is_local());
+}
+
+#[test]
+fn bad_projections_are_refused_and_named() {
+    let of = |projection| Camera { projection, ..Camera::default() }.validate().expect_err("a bad one").to_string();
+    let orthographic = |height, near, far| Projection::Orthographic { height, near, far };
+    for (projection, expected) in [
+        (Projection::perspective(4.0), "Camera.projection.fov_y: the value is 4.0"),
+        (Projection::default().with_near(0.0), "Camera.projection.near: the value is 0.0"),
+        (orthographic(0.0, 0.0, None), "Camera.projection.height: the value is 0.0"),
+        (orthographic(1.0, f32::NAN, None), "Camera.projection.near: the value is NaN"),
+        (
+            orthographic(1.0, 2.0, Some(2.0)),
+            "Camera.projection.far: the value is 2.0; expected a finite number above near",
+        ),
+    ] {
+        assert!(of(projection).starts_with(expected), "{}", of(projection));
+    }
+    assert!(orthographic(1.0, -2.0, Some(-1.0)).validate().is_ok());
+}
+
+#[test]
+fn framing_shows_a_sphere_wholly_and_as_large_as_it_can() {
+    let center = Vec3::new(3.0, -1.0, 7.0);
+    for camera in [Camera::default(), Camera::perspective(2.0), Camera::orthographic(1.0).with_near(-3.0)] {
+        for direction in [Vec3::NEG_Z, Vec3::NEG_Y, Vec3::Y, Vec3::new(1.0, -2.0, 0.5), Vec3::ZERO] {
+            for radius in [1e-3, 1.0, 1e4] {
+                let (camera, place) = camera.framing((center, radius), direction);
+                camera.validate().expect("a camera that can be used");
+                let eye = place.rotation.inverse() * (center - place.translation);
+                let lens: Lens = camera.projection.lens([100, 100]);
+                let holds = |share: f32| lens.holds(eye.to_array(), share * radius);
+                let error = 1e-5 * (eye.length() + center.length()) / radius;
+                assert!(holds(0.999 - error), "{camera:?} {direction} {radius}");
+                assert!(!holds(1.01 + error), "{camera:?} {direction} {radius}");
+            }
+        }
+    }
+}
