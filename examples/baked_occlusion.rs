@@ -68,7 +68,7 @@ fn scene(
     let of_stone = OcclusionBake { size: [256, 128], rays: 128, ..OcclusionBake::default() };
     let of_floor = OcclusionBake { size: [96, 96], rays: 128, ..OcclusionBake::default() };
     let images = [baked("stone", &stone, &floor, of_stone)?, baked("floor", &floor, &stone, of_floor)?];
-    // Beyond the image's sides lies its other side, around the stone; the floor's has an end.
+    // The stone's image repeats around it; the floor's does not.
     let wraps = [[Wrap::Repeat, Wrap::Clamp], [Wrap::Clamp; 2]];
 
     *ambient = GlobalAmbient(LinearRgba::rgb(0.85, 0.9, 1.0));

@@ -1,5 +1,5 @@
-//! One image of heights on four columns: not at all, as a bump map, as the normal map that is made of it, and as the
-//! heights of the vertices of a fine mesh. Prints how far the first three are from the last, by the oracle.
+//! One height image on four columns: ignored, as a bump map, as the normal map made of it, and as displacement of a
+//! fine mesh. Prints the error of the first three relative to the last, by the oracle.
 //!
 //! ```text
 //! cargo run --release --example bumps
@@ -16,14 +16,14 @@ use halfway::texture::{LevelFilter, Pyramid, TexelFilter, TexelImage, TextureErr
 
 /// Columns and rows of the image.
 const SIZE: [u32; 2] = [512, 224];
-/// How wide a texel is on a column, in both directions.
+/// The size of a texel on a column, in both directions.
 const TEXEL: f32 = TAU * RADIUS / SIZE[0] as f32;
 const RADIUS: f32 = 0.8;
-/// How high a 1 is.
+/// The height of a value of 1.
 const HEIGHT: f32 = 0.07;
 const NAMES: [&str; 4] = ["no image", "bump map", "normal map", "displaced"];
 
-/// Beyond its sides the image begins again, above and below it does not.
+/// The image repeats horizontally and is clamped vertically.
 const SAMPLING: Sampling = Sampling {
     wrap: [Wrap::Repeat, Wrap::Clamp],
     magnify: TexelFilter::Bilinear,
@@ -54,7 +54,7 @@ fn heights() -> Result<TexelImage, TextureError> {
     })
 }
 
-/// The object in a place: a mesh and its image.
+/// A column: a mesh and its image.
 struct Column {
     mesh: Mesh,
     map: Option<(MapKind, Texture, f32)>,
@@ -90,7 +90,7 @@ fn spawn(column: &Column, at: f32, world: &mut World) {
     }
 }
 
-/// A light from the upper left, and a camera that sees so high a part of the world.
+/// A light from the upper left, and a camera with this field of view.
 fn look(world: &mut World, fov_y: f32) {
     let sun = DirectionalLight::white();
     world.spawn((sun, Transform::from_xyz(-1.0, 0.9, 0.8).looking_at(Vec3::ZERO, Vec3::Y)));

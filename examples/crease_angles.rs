@@ -1,6 +1,5 @@
-//! Where does a surface go on, and where does it end in an edge? From left to right the normals stop at edges where
-//! faces differ by more than 10, 40 and 180 degrees; above a turned piece of twenty sides, below a coarse teapot.
-//! docs/normals.md tells more.
+//! Crease angles: from left to right normals are split at edges where faces differ by more than 10, 40 and 180 degrees;
+//! above a lathed object of twenty sides, below a coarse teapot. See docs/normals.md.
 //!
 //! ```text
 //! cargo run --release --example crease_angles
@@ -56,7 +55,7 @@ fn turned_piece() -> Mesh {
     for side in 0..SIDES {
         for i in 1..PROFILE.len() {
             let [a, b, c, d] = [point(i - 1, side), point(i - 1, side + 1), point(i, side + 1), point(i, side)];
-            // On the axis a side of the quadrilateral is a point.
+            // On the axis one side of the quadrilateral is a point.
             positions
                 .extend([[a, b, c], [a, c, d]].into_iter().filter(|[a, b, c]| a != b && b != c && c != a).flatten());
         }

@@ -28,7 +28,7 @@ fn main() -> AppExit {
     App::new()
         .add_plugins((TaskPoolPlugin::default(), MeshPlugin, LightingPlugin))
         .add_plugins(RenderPlugin { schedule: MyFrame.intern() })
-        // Levels of detail would come in beside the frames, and count among their bytes.
+        // Levels of detail would be built between frames, and be counted in their bytes.
         .insert_resource(ViewTolerance(Tolerance::EXACT))
         .init_resource::<StaticTransformOptimizations>()
         .add_systems(
@@ -103,7 +103,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
     ));
 }
 
-/// Turns for two frames, then stands: what does not change is neither computed nor uploaded again.
+/// Turns for two frames, then stands still: unchanged matrices are neither computed nor uploaded again.
 fn turn(mut turning: Single<&mut Transform, With<Turning>>, mut frame: Local<u32>) {
     *frame += 1;
     if *frame <= 2 {

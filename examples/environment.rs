@@ -1,5 +1,5 @@
-//! Ten balls under one sky and nothing else that lights them: from left to right ever sharper highlights, above of
-//! metal, below of a matt color with a polish over it.
+//! Ten balls lit by a sky alone: highlights get sharper from left to right; the upper balls are metal, the lower ones a
+//! matt color under a polish.
 //!
 //! ```text
 //! cargo run --release --example environment
@@ -10,7 +10,7 @@ use halfway::prelude::*;
 use halfway::texture::environment::{Environment, EnvironmentLight, EnvironmentMap, EnvironmentShape};
 use halfway::texture::noise::{checker, fractal};
 
-/// Of the columns, from left to right.
+/// The exponents of the columns, from left to right.
 const EXPONENTS: [f32; 5] = [1.0, 12.0, 80.0, 800.0, 1e5];
 
 fn main() -> AppExit {
@@ -21,13 +21,13 @@ fn mix(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
     std::array::from_fn(|k| a[k] + share.clamp(0.0, 1.0) * (b[k] - a[k]))
 }
 
-/// A sky with clouds and a sun over a floor of tiles, as far as one sees.
+/// A sky with clouds and a sun over a floor of tiles that reaches to the horizon.
 fn sky([x, y, z]: [f64; 3]) -> [f32; 4] {
     const SUN: [f64; 3] = [0.06, 0.292, -0.954];
     const HAZE: [f64; 3] = [0.62, 0.68, 0.74];
     let color = if y > 0.0 {
         let blue = mix(HAZE, [0.06, 0.16, 0.42], (3.0 * y).sqrt().min(1.0));
-        // Clouds on a plane above, which the haze takes toward the horizon.
+        // Clouds on a plane above, which fade into haze toward the horizon.
         let height = y + 0.08;
         let clouds = fractal([1.7 * x / height, 3.0, 1.7 * z / height], 6, 0.02 / height);
         let clouded = mix(blue, [0.85, 0.84, 0.82], (1.5 * clouds).clamp(0.0, 0.9) * (6.0 * y).min(1.0));

@@ -1,5 +1,5 @@
 //! A homework exercise: a red surface is lit along a line from vertex V1 to vertex V2. Which colours have ten points on
-//! the line by Gouraud's way (interpolate the colours) and by Phong's (interpolate the normals)?
+//! the line by Gouraud's method (interpolate the colours) and by Phong's (interpolate the normals)?
 //!
 //! ```text
 //! cargo run --example homework
@@ -26,7 +26,7 @@ type Colors = [[[f64; 3]; 2]; 10];
 fn colors() -> Option<Colors> {
     let light = DirectionalLight::new(LinearRgba::rgb(1.0, 0.5, 0.5)).along(L.map(|x| -x)).ok()?;
     let red = Coefficients::from(&Material::matte(LinearRgba::RED));
-    // Without highlights it makes no difference where the viewer is.
+    // Without highlights the position of the viewer makes no difference.
     let view = Eye::Infinite([0.0, 0.0, 1.0]);
     let color = |position, normal| {
         shade(&ShadedPoint { position, normal }, &red, &[light], [0.0; 3], &view, Reflectance::Phong)
@@ -58,7 +58,7 @@ fn main() -> AppExit {
         .run()
 }
 
-/// Squares that shine by themselves in the colours found.
+/// Emissive squares in the computed colours.
 fn draw(colors: &Colors, mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
     let square = meshes.add(Plane { size: 0.98, divisions: 1 });
     for (i, [gouraud, phong]) in colors.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A pass of the program's own: the axes as lines through the scene, which hides what is behind it.
+//! A custom pass: draws the axes as lines through the scene, which hides the parts behind it.
 //!
 //! ```text
 //! cargo run --release --example lines_pass
@@ -76,7 +76,7 @@ impl Made {
         });
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("axes"),
-            // Of the shader's own bindings.
+            // Derived from the shader's bindings.
             layout: None,
             vertex: wgpu::VertexState {
                 module: &module,

@@ -1,4 +1,4 @@
-//! A light moves with whatever it is attached to. Five teapots show five ways:
+//! A light moves with its parent. Five teapots show five arrangements:
 //!
 //! | where | teapot | light |
 //! |---|---|---|
@@ -22,10 +22,10 @@ use std::path::Path;
 use halfway::mesh::Part;
 use halfway::prelude::*;
 
-/// Seconds after which everything is where it was.
+/// The period of the scene in seconds.
 const LOOP: f32 = 6.0;
 
-/// So many turns about +Y in a loop.
+/// The number of turns about +Y in a period.
 #[derive(Component)]
 struct Turns(f32);
 
@@ -137,14 +137,14 @@ fn turn(time: Res<Time>, mut turning: Query<(&Turns, &mut Transform)>) {
     }
 }
 
-/// The camera swings, so that its light is seen to go with it. In a window the mouse can still turn it.
+/// Swings the camera, which shows that its light moves with it. In a window the mouse can still turn it.
 fn sway(time: Res<Time>, mut camera: Single<&mut Transform, With<Camera>>) {
     let angle = |seconds: f32| 0.12 * (TAU * seconds / LOOP).sin();
     let (now, step) = (time.elapsed_secs(), time.delta_secs());
     camera.rotate_around(Vec3::ZERO, Quat::from_rotation_y(angle(now) - angle(now - step)));
 }
 
-/// Reads the model, makes it as long as the teapot and puts it on the ground.
+/// Reads the model, scales it to the teapot's length and puts it on the ground.
 fn load() -> Result<Parts, Box<dyn Error>> {
     let named = std::env::args_os().skip_while(|argument| argument != "--model").nth(1);
     let file = named.unwrap_or_else(|| concat!(env!("CARGO_MANIFEST_DIR"), "/assets/teapot.obj").into());

@@ -1,6 +1,6 @@
-//! Weightings of the face normals around a vertex. From left to right every face the same,
-//! by its area, by its angle at the vertex, and by Max's weights; from top to bottom a sphere of uneven triangles, a
-//! coarse teapot, and a box with narrow bevels. docs/normals.md tells more.
+//! Weightings of the face normals around a vertex. From left to right uniform, by area, by the angle at the vertex, and
+//! by Max's weights; from top to bottom a sphere of uneven triangles, a coarse teapot, and a box with narrow bevels.
+//! See docs/normals.md.
 //!
 //! ```text
 //! cargo run --release --example normal_weightings
@@ -42,7 +42,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
     ));
 }
 
-/// A sphere whose vertices were pushed about on it.
+/// A sphere whose vertices are displaced along its surface.
 fn uneven_sphere() -> Mesh {
     let sphere = Mesh::from(Icosphere::new(1.0, 4));
     // Smooth in the position, so that no triangle turns over and vertices at one position stay together.

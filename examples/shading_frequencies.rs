@@ -1,6 +1,6 @@
-//! How often is the equation evaluated? A coarse teapot above, a fine one below; from left to right flat (once a
-//! triangle), Gouraud (once a vertex) and Phong shading (once a fragment). The keys 1, 2 and 3 give all of them the
-//! same.
+//! The frequency of the lighting equation: a coarse teapot above, a fine one below; from left to right flat (once a
+//! triangle), Gouraud (once a vertex) and Phong shading (once a fragment). The keys 1, 2 and 3 give all teapots the
+//! same shading.
 //!
 //! ```text
 //! cargo run --release --example shading_frequencies

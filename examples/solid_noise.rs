@@ -1,5 +1,5 @@
-//! Cut solids that show their inside: a block of wood without a corner, a ball of marble without an eighth, a ball of
-//! noise; on a checkered floor to the horizon, where what is finer than a pixel has turned to its mean.
+//! Solid textures on cut objects: a block of wood without a corner, a ball of marble without an eighth, a ball of
+//! noise; on a checkered floor to the horizon, where detail finer than a pixel fades to its mean.
 //!
 //! ```text
 //! cargo run --release --example solid_noise
@@ -85,7 +85,7 @@ fn ball() -> Result<Mesh, MeshError> {
     carving.mesh()
 }
 
-/// A solid by what lies where in it: `place` takes the object into it.
+/// A solid texture; `place` maps the object into it.
 fn solid(kind: SolidKind, colors: [[f32; 3]; 2], place: Mat4) -> SolidTexture {
     SolidTexture::new(kind, colors).placed(place.to_cols_array_2d())
 }
@@ -104,7 +104,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut ambient: 
     let wood = solid(
         SolidKind::Wood,
         [[0.62, 0.38, 0.17], [0.3, 0.13, 0.045]],
-        // The heart of the tree lies low and behind, and runs along the block.
+        // The axis of the tree lies low and behind, along the block.
         Mat4::from_scale(Vec3::splat(5.0))
             * Mat4::from_rotation_z(1.35)
             * Mat4::from_translation(Vec3::new(0.0, 0.65, 0.55)),
@@ -150,7 +150,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut ambient: 
     Ok(())
 }
 
-/// Of which all color is the solid's.
+/// A white material, so that the solid decides the color.
 fn white() -> Material {
     Material::matte(LinearRgba::WHITE)
 }

@@ -1,5 +1,5 @@
-//! Twenty-four teapots that differ in nothing but their material: one row each of gems, metals, plastics and rubbers.
-//! They share one mesh, which is on the GPU once.
+//! Twenty-four teapots that differ only in their material: one row each of gems, metals, plastics and rubbers. They
+//! share one mesh, which is uploaded once.
 //!
 //! ```text
 //! cargo run --release --example teapots
@@ -42,7 +42,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
     }
     commands.spawn((
         Camera {
-            // From far away, so that every teapot is seen from the same side.
+            // From far away, so that every teapot shows the same side.
             background: LinearRgba::rgb(0.28, 0.3, 0.34),
             samples: Samples::Four,
             // The figures were chosen for screens that show intensities as they are.
@@ -53,7 +53,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
     ));
 }
 
-/// Says after the first frame what it took: as many draws as there are materials, but one mesh uploaded.
+/// Prints the counters of the first frame: as many draws as materials, but one uploaded mesh.
 fn count(report: Res<FrameReport>, mut said: Local<bool>) {
     if !*said {
         let FrameReport { objects, materials, draws, triangles, bytes_uploaded, .. } = *report;

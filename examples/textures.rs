@@ -1,6 +1,6 @@
 //! One checker on a floor that is tilted away and on a ball, by twelve filters: from left to right nearest, bilinear,
-//! B-spline and Catmull–Rom; above without smaller images, in the middle with them; below by the footprint's shape:
-//! ripmap, summed areas, 16 probes and the elliptical mean.
+//! B-spline and Catmull–Rom; above without mipmaps, in the middle with them; below by the footprint's shape: ripmap,
+//! summed areas, 16 probes and the elliptical mean.
 //!
 //! ```text
 //! cargo run --release --example textures

@@ -1,8 +1,8 @@
 //! Names for use beside bevy's prelude.
 //!
-//! halfway and bevy both have a `Mesh`, a `Camera` or a `PointLight`, and two globs of one name cannot be used together.
-//! Where bevy's prelude is there, take the crate's types by the names of this module, which all begin with `Halfway`
-//! where bevy has the same one, instead of [`prelude`](crate::prelude):
+//! halfway and bevy both have a `Mesh`, a `Camera` and a `PointLight`, and a name that two globs import cannot be used.
+//! In a program with bevy's prelude, import this module instead of [`prelude`](crate::prelude): it gives types that
+//! share a name with one of bevy's the prefix `Halfway`.
 //!
 //! ```
 //! // use bevy::prelude::*;
@@ -21,8 +21,8 @@
 //! app.add_plugins(HalfwayPlugins::reference()).add_systems(Startup, scene).update();
 //! ```
 //!
-//! The types of `bevy_app`, `bevy_ecs`, `bevy_color`, `bevy_math`, `bevy_time` and `bevy_transform` are bevy's own where
-//! bevy is of the same version.
+//! The types of `bevy_app`, `bevy_ecs`, `bevy_color`, `bevy_math`, `bevy_time` and `bevy_transform` are bevy's own if
+//! bevy has the same version.
 
 pub use crate::HalfwayPlugins;
 pub use halfway_asset::{Assets as HalfwayAssets, Handle as HalfwayHandle};

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use bevy_app::{App, AppExit, Plugin};
 use halfway_record::{Recording, parse_size};
 
-/// Where a demo draws.
+/// The target of a demo.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Demo {
     Window,
@@ -15,8 +15,7 @@ pub(crate) enum Demo {
     Stop(Stop),
 }
 
-/// Gives the App a runner that draws nothing: it prints how the program is used and ends, with exit code 2 where there
-/// is a problem.
+/// Gives the App a runner that draws nothing: it prints the usage and ends, with exit code 2 if there is a problem.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Stop {
     problem: Option<String>,
@@ -122,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn arguments_that_make_no_sense_are_refused_by_name() {
+    fn contradictory_arguments_are_refused_by_name() {
         let cases = [
             ("--headles a.png", "unknown argument --headles"),
             ("--headless", "--headless needs a value"),

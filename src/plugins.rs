@@ -15,7 +15,7 @@ use halfway_record::HeadlessPlugin;
 /// Everything that a lit scene needs: tasks, assets, time, transforms, meshes, lighting, rendering, and a window where
 /// the feature `window` is on. Each plugin also works alone.
 ///
-/// Plugins of bevy that the app has already stay as they are: add your own before the group.
+/// The group does not replace plugins of bevy that the app already has: add your own before the group.
 ///
 /// Without a window: [`HalfwayPlugins::headless`]. Without a renderer: [`HalfwayPlugins::reference`]. As a demo that
 /// takes its target from the command line: [`HalfwayPlugins::from_args`].

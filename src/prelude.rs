@@ -1,4 +1,4 @@
-//! A scene in code takes one `use halfway::prelude::*`.
+//! All names for a scene in code: `use halfway::prelude::*`.
 //!
 //! It holds bevy's derives, too: `#[derive(Component)]` and `#[derive(Resource)]` work in a package that depends on
 //! halfway alone, since the prelude brings the crates that they name, `bevy_ecs` and `bevy_app`, into the module.

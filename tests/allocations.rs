@@ -1,6 +1,6 @@
 //! Memory in the steady state: a frame takes none that grows with the scene.
 //!
-//! A program of its own, since the allocator that counts is the program's, and one test, since every thread counts.
+//! This is a program of its own, since the counting allocator is global, with one test, since it counts all threads.
 
 #![allow(unsafe_code, reason = "an allocator is unsafe by its trait; this one only counts and hands on")]
 
@@ -9,7 +9,7 @@ use halfway::render::{AdapterChoice, Gpu, wgpu};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// The system's allocator, with a count of the blocks and the bytes that are asked for.
+/// The system's allocator, with a count of the allocated blocks and bytes.
 struct Counting {
     blocks: AtomicUsize,
     bytes: AtomicUsize,
@@ -21,8 +21,8 @@ impl Counting {
         self.bytes.fetch_add(bytes, Relaxed);
     }
 
-    /// Blocks and bytes that some work asks for.
-    fn of(&self, work: impl FnOnce()) -> [usize; 2] {
+    /// The blocks and bytes that some work allocates.
+    fn count(&self, work: impl FnOnce()) -> [usize; 2] {
         let now = || [self.blocks.load(Relaxed), self.bytes.load(Relaxed)];
         let before = now();
         work();
@@ -31,7 +31,7 @@ impl Counting {
     }
 }
 
-// SAFETY: every call is handed on to the system's allocator as it is.
+// SAFETY: every call is passed unchanged to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         self.add(layout.size());
@@ -57,13 +57,12 @@ static ALLOCATOR: Counting = Counting { blocks: AtomicUsize::new(0), bytes: Atom
 /// Frames until buffers have their sizes.
 const WARM_UP: usize = 8;
 const FRAMES: usize = 16;
-/// The most blocks of one frame. One without changes takes 71 to 77 on a software adapter, and 10 more where instances
-/// are sent: nearly all of them wgpu's, for the pass, its commands, their submission and the staging of what is
-/// written.
+/// The most blocks of one frame. One without changes takes 71 to 77 on a software adapter, and 10 more if instances are
+/// uploaded: nearly all of them wgpu's, for the pass, its commands, their submission and staging buffers.
 const MOST_BLOCKS: usize = 110;
 /// The most bytes of one frame; those blocks have 14,000 to 19,000.
 const MOST_BYTES: usize = 32_000;
-/// How many blocks more frames of many objects may take than frames of few: wgpu's own tables grow now and then.
+/// How many more blocks frames of many objects may take than frames of few: wgpu's own tables grow now and then.
 const SLACK: usize = 4;
 
 /// An App with `count` cubes in rows, all of them in the picture, in a few materials.
@@ -100,8 +99,8 @@ fn of_a_frame(count: usize, moving: bool) -> [usize; 2] {
         if moving {
             turn(&mut app);
         }
-        let taken = ALLOCATOR.of(|| app.update());
-        // A frame that finds the one before unfinished takes anew what it would take over from it.
+        let taken = ALLOCATOR.count(|| app.update());
+        // If the previous frame is unfinished, the next one cannot reuse its buffers and allocates new ones.
         let device = &app.world().resource::<Gpu>().device;
         device.poll(wgpu::PollType::wait_indefinitely()).expect("the device finishes");
         if frame >= WARM_UP {

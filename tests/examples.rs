@@ -1,4 +1,4 @@
-//! Every example runs without a window and draws what it says.
+//! Every example runs without a window, and its picture shows its subject.
 
 use std::collections::HashSet;
 use std::env::consts::EXE_SUFFIX;
@@ -37,7 +37,7 @@ fn run(name: &str, file: &Path, more: &[&str]) -> Output {
     let size = format!("{}x{}", SIZE.0, SIZE.1);
     let mut command = Command::new(binary(name));
     command.arg("--headless").arg(file).args(["--size", &size]).args(more);
-    // Bytes that are uploaded are counted there.
+    // Only adapters count uploaded bytes.
     if std::env::var_os("HALFWAY_ADAPTER").is_none() {
         command.env("HALFWAY_ADAPTER", "gpu");
     }
@@ -70,7 +70,7 @@ fn textures() {
     draw("textures", &file, &[]);
     let picture = image::open(&file).expect("a picture").to_rgb8();
     let (width, height) = picture.dimensions();
-    // Without smaller images the far end of a floor is a pattern, with them one color.
+    // Without mipmaps the far end of a floor is a moiré pattern, with them one color.
     let spread = |from: f32| {
         let row = (from * height as f32) as u32;
         let reds: Vec<u8> = (0..width / 12).map(|x| picture.get_pixel(width * 5 / 12 + x / 2, row).0[2]).collect();
@@ -84,7 +84,7 @@ fn environment() {
     let file = folder("environment").join("environment.png");
     draw("environment", &file, &[]);
     let picture = picture(&file);
-    // Of each column the middle of the upper ball: what is seen in it grows with the exponent.
+    // The middle of the upper ball of each column: its reflection shows more contrast the higher the exponent is.
     let spread = |column: u32| {
         let x = SIZE.0 * (2 * column + 1) / 10 - 6;
         let middle = imageops::crop_imm(&picture, x, SIZE.1 * 2 / 5 - 6, 12, 12).to_image();
@@ -108,7 +108,7 @@ fn solid_noise() {
     assert!(near > 80 && far < 25, "{near} and {far}");
 }
 
-/// Of that picture: above all that stands on the floor, and below the horizon.
+/// A row of that picture above all objects and below the horizon.
 const FAR_ROW: u32 = 14;
 
 #[test]
@@ -130,7 +130,7 @@ fn baked_occlusion() {
     let printed = draw("baked_occlusion", &file, &[]);
     assert!(printed.contains("stone: 256 × 128 texels of 128 rays") && printed.contains("floor: 96 × 96"), "{printed}");
     let picture = picture(&file);
-    // The right half is the left one, darker, and nowhere brighter by more than what parallax makes.
+    // The right half is darker than the left one, and nowhere brighter by more than parallax explains.
     let light = |left: u32| {
         let half = imageops::crop_imm(&picture, left, SIZE.1 / 4, SIZE.0 / 2, SIZE.1 / 2).to_image();
         half.pixels().map(|pixel| u64::from(pixel.0[1])).sum::<u64>() / u64::from(SIZE.0 / 2 * SIZE.1 / 2)
@@ -245,7 +245,7 @@ fn engine_module() {
     // Matrices and bytes by frame: everything, what turned, nothing.
     let [matrices, bytes] = [4, 5].map(|column| rows.iter().map(|row| row[column]).collect::<Vec<_>>());
     assert_eq!(matrices, [10, 9, 0, 0], "{printed}");
-    // The CPU reads in place what is sent to wgpu for objects that turn.
+    // The CPU reads in place the data that is uploaded to wgpu for turning objects.
     let on_the_cpu = std::env::var("HALFWAY_ADAPTER").is_ok_and(|name| name.starts_with("cpu"));
     assert!(bytes[0] > bytes[1] && (bytes[1] > 0) != on_the_cpu && bytes[2..] == [0, 0], "{printed}");
 }

@@ -1,5 +1,5 @@
-//! Whole-system tests of the renderer: scenes are spawned through the facade, drawn headless, and their pixels
-//! compared with what the oracle draws of the same world, and with closed forms.
+//! Whole-system tests of the renderer: scenes are spawned through the facade, drawn headless, and their pixels compared
+//! with the oracle's picture of the same world, and with closed forms.
 //!
 //! `render/scene.rs` describes a scene; `render/stage.rs` spawns and draws it; `render/compare.rs` judges the picture.
 //! `render/conformance.rs` is the table of all features and all pairs of them.

@@ -1,6 +1,6 @@
 //! A long run: lights move, objects and a light come and go, meshes are replaced in place, materials change; for
-//! 100,000 frames. It fails where memory grows, where a frame has an error, and where the last picture is another than
-//! that of the same scene in a new App.
+//! 100,000 frames. It fails if memory grows, if a frame has an error, or if the last picture differs from that of the
+//! same scene in a new App.
 //!
 //! ```text
 //! cargo run --release --example soak
@@ -28,15 +28,15 @@ static ALLOCATOR: memory::Counting = memory::Counting::new();
 const FRAMES: u64 = 100_000;
 /// Frames until buffers, caches and pipelines have their sizes.
 const WARM_UP: u64 = 1_000;
-/// How often memory is looked at, in frames. It is no multiple of the lengths after which the scene repeats something,
-/// so that the largest of some looks is near the largest there is.
+/// The interval of memory samples, in frames. It shares no factor with the periods of the scene, so that the largest of
+/// some samples is near the true maximum.
 const LOOK: u64 = 7;
 /// A picture is read back this often, in frames.
 const READ: u64 = 500;
 /// The program's own bytes on the heap may grow by this much from the first frames after the warm-up to the last:
 /// tables double when a rare frame has more of something. `--leak` grows by more than this.
 const SLACK_LIVE: u64 = 64 << 10;
-/// And the memory that is resident, the driver's included, by this much: allocators keep pages in reserve.
+/// The resident memory, including the driver's, may grow by this much: allocators keep pages in reserve.
 const SLACK_RESIDENT: u64 = 4 << 20;
 
 fn main() -> ExitCode {

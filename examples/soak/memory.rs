@@ -1,9 +1,9 @@
-//! How much memory there is in use.
+//! Measures the memory in use.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// The system's allocator, with a count of the bytes that are in use. What the driver asks for does not go through it.
+/// The system's allocator, with a count of the bytes that are in use. The driver's own allocations are not counted.
 pub(crate) struct Counting(AtomicU64);
 
 impl Counting {
@@ -12,7 +12,7 @@ impl Counting {
     }
 }
 
-// SAFETY: every call is handed on to the system's allocator as it is.
+// SAFETY: every call is passed unchanged to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         self.0.fetch_add(layout.size() as u64, Relaxed);
@@ -39,7 +39,7 @@ unsafe impl GlobalAlloc for Counting {
 pub(crate) struct Memory {
     /// The program's own, on the heap.
     pub(crate) live: u64,
-    /// All of the process that is in main memory, as Linux tells; 0 elsewhere.
+    /// The resident set of the process on Linux; 0 elsewhere.
     pub(crate) resident: u64,
 }
 

@@ -4,11 +4,11 @@ use halfway::mesh::SpawnOrder;
 use halfway::prelude::*;
 use halfway::render::{PendingPicture, RenderError};
 
-/// Pictures are as small as they may be: what is looked for does not depend on pixels.
+/// Small pictures, since leaks do not depend on pixels.
 const SIZE: UVec2 = UVec2::splat(16);
 /// Objects that come and go, one a frame.
 const VISITORS: u64 = 12;
-/// A light comes so often, and stays for half of that, in frames.
+/// The period of the light that comes and goes, in frames; it exists for half of it.
 const LAMP: u64 = 16;
 
 /// An App whose scene changes from frame to frame.
@@ -124,7 +124,7 @@ impl Life {
             new.spawn((*parts.0, *parts.1));
         }
         new.insert_resource(*old.resource::<GlobalAmbient>());
-        // In the order in which they are summed.
+        // In the order of summation.
         for parts in old.query::<(&DirectionalLight, &Transform)>().iter(old) {
             new.spawn((*parts.0, *parts.1));
         }
@@ -153,7 +153,7 @@ impl Life {
         Ok(fresh)
     }
 
-    /// The picture once all pipelines are there.
+    /// The picture once all pipelines are built.
     pub(crate) fn settled_picture(&mut self) -> Result<Picture, RenderError> {
         for _ in 0..3 {
             self.app.update();
@@ -168,7 +168,7 @@ fn sphere(number: u64) -> Mesh {
     Mesh::from(UvSphere::new(0.4 + 0.02 * (number % 10) as f32, 5 + number as u32 % 9, 4))
 }
 
-/// A material that has not been there for a long time.
+/// A material that has not been used for a long time.
 fn varied(number: u64) -> Material {
     let part = |factor: u64| (number * factor % 1009) as f32 / 1009.0;
     let mut material = Material::matte(LinearRgba::rgb(part(17), part(101), part(313)));

@@ -1,4 +1,4 @@
-//! What the fuzz targets share: it is what the tests of past failures of the crates mesh, scene and texture do too.
+//! The checks shared by the fuzz targets and the tests of past failures of the crates mesh, scene and texture.
 
 #[path = "../../crates/mesh/tests/common/mod.rs"]
 mod common;
@@ -37,8 +37,8 @@ pub fn feed_scene(bytes: &[u8]) {
 /// # Panics
 /// As [`feed`].
 pub fn feed_image(bytes: &[u8]) {
-    // The fuzzer's hook ends the program at any panic, also one of a decoder that the reader makes an error of. Those
-    // that come out of here end it all the same, and say why.
+    // The fuzzer's hook ends the program at any panic, even at one of a decoder that the reader turns into an error.
+    // Panics that leave this function still end the program with their message.
     static ONCE: std::sync::Once = std::sync::Once::new();
     ONCE.call_once(|| std::panic::set_hook(Box::new(|_| {})));
     if let Err(panic) = std::panic::catch_unwind(|| texture::feed(bytes)) {

@@ -1,8 +1,9 @@
-//! Properties of the adapter, measured and told by the environment. `cargo xtask adapters` runs these on each.
+//! Properties of the adapter, measured and compared with environment variables. `cargo xtask adapters` runs these on
+//! each.
 
 use halfway::render::{Adapter, AdapterChoice};
 
-/// The adapter that the environment names, else a graphics adapter, which most of these tests are about.
+/// The adapter that the environment names, else a graphics adapter, since most of these tests are for those.
 pub(crate) fn choice() -> AdapterChoice {
     if std::env::var_os("HALFWAY_ADAPTER").is_some() { AdapterChoice::default() } else { AdapterChoice::gpu() }
 }
@@ -11,9 +12,9 @@ fn adapter() -> Adapter {
     choice().open().unwrap_or_else(|error| panic!("{error}"))
 }
 
-// `cargo xtask adapters` says what it means to test; the programs it runs choose by the variables that it sets.
+// `cargo xtask adapters` sets the name of the tested adapter; programs choose theirs by other variables that it sets.
 #[test]
-fn what_draws_is_what_is_tested() {
+fn the_drawing_adapter_is_the_tested_one() {
     let tested = std::env::var("HALFWAY_TESTED_ADAPTER").unwrap_or_default();
     let said = adapter().describe();
     for part in tested.split_whitespace() {

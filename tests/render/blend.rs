@@ -1,4 +1,4 @@
-//! Blended objects: their order, their sides, and what they do to what lies behind.
+//! Blended objects: their order, their sides, and their effect on surfaces behind them.
 
 use crate::render::compare::assert_as_expected;
 use crate::render::scene::{Lamp, Scene, Thing, glowing, other_material, point_light};
@@ -11,7 +11,7 @@ const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong]
 /// A glowing square before the camera.
 fn pane(distance: f32, colour: [f32; 3], opacity: f32) -> Thing {
     let [red, green, blue] = colour;
-    Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 99.0).of(glowing(red, green, blue)).blended(opacity)
+    Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 99.0).with_material(glowing(red, green, blue)).blended(opacity)
 }
 
 /// Layers over a background, farthest first.
@@ -31,7 +31,7 @@ fn assert_centre(row: &str, stage: &mut Stage, scene: &Scene, expected: [f32; 3]
 }
 
 #[test]
-fn layers_are_drawn_back_to_front_in_whatever_order_they_are_spawned() {
+fn layers_are_drawn_back_to_front_in_any_spawn_order() {
     let panes = [pane(5.0, RED, 0.5), pane(4.0, GREEN, 0.25), pane(3.0, BLUE, 0.75)];
     let expected = [0, 1, 2].map(|k| {
         let of = |i: usize| f32::from(u8::from(i == k));
@@ -76,8 +76,8 @@ fn equal_depths_are_drawn_in_the_order_they_were_spawned() {
 }
 
 #[test]
-fn equal_depths_are_drawn_in_the_order_they_were_spawned_after_others_have_gone() {
-    // A despawned entity's place is taken by a later one.
+fn equal_depths_keep_the_spawn_order_after_despawns() {
+    // A later entity reuses the index of a despawned one.
     let mut stage = Stage::new(9, 9);
     stage.set(&Scene::in_eye_space());
     let spawn = |stage: &mut Stage, colour| {
@@ -101,7 +101,8 @@ fn equal_depths_are_drawn_in_the_order_they_were_spawned_after_others_have_gone(
 #[test]
 fn a_blended_object_covers_and_is_covered_by_opaque_ones() {
     let mut stage = Stage::new(9, 9);
-    let wall = |distance: f32| Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 99.0).of(glowing(0.2, 0.4, 0.6));
+    let wall =
+        |distance: f32| Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 99.0).with_material(glowing(0.2, 0.4, 0.6));
     let glass = || pane(3.0, [0.8, 0.8, 0.8], 0.25);
     let through = [over(0.2, &[(0.8, 0.25)]), over(0.4, &[(0.8, 0.25)]), over(0.6, &[(0.8, 0.25)])];
     for (row, things, expected) in [
@@ -121,7 +122,8 @@ fn blended_objects_write_no_depth() {
     // The near pane's centre is farther away than the far one's: it is drawn first, and must not hide the other.
     let mut stage = Stage::new(9, 9);
     let near = pane(3.0, RED, 0.5);
-    let tilted = Thing::square(Vec3::new(0.0, 0.0, -4.0), Vec3::Z, 99.0).of(glowing(0.0, 0.0, 1.0)).blended(0.5);
+    let tilted =
+        Thing::square(Vec3::new(0.0, 0.0, -4.0), Vec3::Z, 99.0).with_material(glowing(0.0, 0.0, 1.0)).blended(0.5);
     let mut aside = near.clone();
     // Moved far to the side along itself, and back, by tilting it about the axis of the view.
     aside.frames[0].translation = Vec3::new(20.0, 0.0, -12.0);
@@ -190,7 +192,8 @@ fn one_sided_blended_objects_show_the_side_asked_for() {
     ] {
         for shading in SHADINGS {
             let back = Material { opacity: 0.25, ..glowing(0.0, 0.0, 1.0) };
-            let square = Thing::square(Vec3::ZERO, Vec3::Z, 9.0).of(glowing(1.0, 0.0, 0.0)).back(back).blended(0.5);
+            let square =
+                Thing::square(Vec3::ZERO, Vec3::Z, 9.0).with_material(glowing(1.0, 0.0, 0.0)).back(back).blended(0.5);
             let scene = Scene::seen_from(Vec3::Z * eye, Vec3::ZERO).with(square.faces(faces).shaded(shading));
             assert_centre(&format!("from {eye}, {faces:?}, {shading:?}"), &mut stage, &scene, expected);
         }
@@ -213,7 +216,7 @@ fn opaque_pixels_are_the_same_beside_a_blended_object() {
 }
 
 #[test]
-fn overbright_surfaces_are_clamped_before_they_are_blended_in_bytes() {
+fn bytes_clamp_overbright_surfaces_before_blending() {
     let mut stage = Stage::new(9, 9);
     for encoding in [Encoding::Raw, Encoding::Srgb] {
         let mut scene = Scene::in_eye_space().with(pane(3.0, [8.0, 0.5, 0.0], 0.5));
@@ -248,8 +251,8 @@ fn transforms_and_meshes_may_differ_between_neighbours_in_depth() {
         let at = Transform::from_xyz(0.25 * i as f32 - 1.0, 0.2 * (i % 3) as f32, 0.6 * ((i * 4) % 9) as f32 - 2.0);
         let thing = match i % 3 {
             0 => Thing::new(UvSphere::new(0.6, 10, 5)),
-            1 => Thing::square(Vec3::ZERO, Vec3::Z, 1.2).of(other_material()),
-            _ => Thing::new(Cuboid::new(0.7, 0.7, 0.1)).of(glowing(0.2, 0.9, 0.4)),
+            1 => Thing::square(Vec3::ZERO, Vec3::Z, 1.2).with_material(other_material()),
+            _ => Thing::new(Cuboid::new(0.7, 0.7, 0.1)).with_material(glowing(0.2, 0.9, 0.4)),
         };
         let rotation = thing.frames[0].rotation;
         scene.things.push(thing.at(at.with_rotation(rotation)).blended(0.4).shaded(SHADINGS[i / 3]));

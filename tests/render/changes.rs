@@ -1,4 +1,4 @@
-//! Scenes that change between frames: each frame shows what is there now.
+//! Scenes that change between frames: each frame shows the current scene.
 
 use crate::render::compare::{assert_identical, difference};
 use crate::render::conformance::environment::around;
@@ -13,7 +13,7 @@ use halfway::texture::{TexelFilter, TexelImage};
 
 fn one(mesh: impl Into<Mesh>) -> Scene {
     Scene::seen_from(Vec3::Z * 4.0, Vec3::ZERO)
-        .with(Thing::new(mesh).of(material()))
+        .with(Thing::new(mesh).with_material(material()))
         .lit(Lamp::point(point_light(), Vec3::new(1.0, 2.0, 3.0)))
 }
 
@@ -78,7 +78,7 @@ fn a_mesh_that_moves_is_drawn_as_one_that_is_made_anew() {
             colors.map_or(Ok(mesh.clone()), |colors| mesh.with_colors(colors)).expect("a color a vertex")
         };
         let first = paint(flat.clone());
-        stage.draw_bytes(&view(look(Thing::new(first.clone()).of(material())), lights));
+        stage.draw_bytes(&view(look(Thing::new(first.clone()).with_material(material())), lights));
         let handle = stage.handle(&first);
         for frame in 1..=4_u8 {
             let (positions, normals) = sheet(0.7 * f32::from(frame));
@@ -89,7 +89,7 @@ fn a_mesh_that_moves_is_drawn_as_one_that_is_made_anew() {
             let moved = stage.bytes();
             let indices = flat.indices().to_vec();
             let anew = paint(Mesh::from_parts(positions, Some(normals), None, indices).expect("a sound mesh"));
-            let expected = fresh.draw_bytes(&view(look(Thing::new(anew).of(material())), lights));
+            let expected = fresh.draw_bytes(&view(look(Thing::new(anew).with_material(material())), lights));
             assert!(expected == moved, "{row}, frame {frame}: another picture");
         }
         stage.bytes();
@@ -114,7 +114,7 @@ fn a_mesh_that_is_removed_is_missed_until_it_is_back() {
 }
 
 #[test]
-fn what_is_despawned_is_gone_from_the_next_frame() {
+fn a_despawned_object_is_gone_in_the_next_frame() {
     let mut stage = Stage::new(24, 24);
     let scene = one(UvSphere::new(1.0, 12, 6))
         .with(Thing::new(Cuboid::default()).at(Transform::from_xyz(1.2, 0.0, 0.0)).shaded(Shading::Flat));
@@ -177,16 +177,17 @@ fn changed_components_show_at_once() {
     }
 }
 
-/// A sheet, a square with an image, one with colours of its own and one
-/// that is seen from behind, under more lights than are compiled in.
+/// A sheet, a square with an image, one with vertex colours and one seen from behind, under more lights than are
+/// compiled in.
 fn every_kind() -> Scene {
     let mut scene = Scene::seen_from(Vec3::Z * 4.0, Vec3::ZERO).ambient(0.1);
-    let mut sheet = Thing::new(Plane { size: 1.8, divisions: 24 }).of(material()).shaded(Shading::Phong);
+    let mut sheet = Thing::new(Plane { size: 1.8, divisions: 24 }).with_material(material()).shaded(Shading::Phong);
     sheet.frames[0] = Transform::from_xyz(-0.8, 0.2, 0.0).with_rotation(Quat::from_rotation_x(1.1));
-    let behind = Thing::square(Vec3::new(-0.8, -1.1, 0.0), Vec3::NEG_Z, 0.6).of(material()).faces(Faces::Both);
-    let mut imaged = Thing::square(Vec3::new(0.8, 0.7, 0.0), Vec3::Z, 1.0).of(material());
+    let behind =
+        Thing::square(Vec3::new(-0.8, -1.1, 0.0), Vec3::NEG_Z, 0.6).with_material(material()).faces(Faces::Both);
+    let mut imaged = Thing::square(Vec3::new(0.8, 0.7, 0.0), Vec3::Z, 1.0).with_material(material());
     imaged.maps.push((MapKind::Color, Map::new(image(0.2))));
-    let mut colored = Thing::square(Vec3::new(0.8, -0.7, 0.0), Vec3::Z, 1.0).of(material());
+    let mut colored = Thing::square(Vec3::new(0.8, -0.7, 0.0), Vec3::Z, 1.0).with_material(material());
     let colors = vec![Vec4::new(0.3, 0.6, 0.9, 1.0); colored.mesh.positions().len()];
     colored.mesh = colored.mesh.with_colors(colors).expect("a colour a vertex");
     scene.things = vec![sheet, imaged, colored, behind];
@@ -201,7 +202,7 @@ fn image(least: f32) -> TexelImage {
     TexelImage::from_fn(4, 4, |x, y| [least, x as f32 / 4.0, y as f32 / 4.0, 0.7]).expect("a small image")
 }
 
-/// Puts the scene on a stage, whatever was there before.
+/// Replaces the scene of a stage.
 fn set(stage: &mut Stage) -> Vec<Entity> {
     let world = stage.world();
     world.insert_resource(ViewTolerance(Tolerance::steps(4.0)));
@@ -213,7 +214,7 @@ fn set(stage: &mut Stage) -> Vec<Entity> {
 struct Change {
     name: &'static str,
     make: fn(&mut Stage, &[Entity]),
-    /// It shows.
+    /// Whether it changes the picture.
     shows: bool,
 }
 
@@ -355,7 +356,7 @@ fn changes_around() -> Vec<Change> {
 }
 
 #[test]
-fn whatever_changes_shows_at_once() {
+fn every_change_shows_at_once() {
     let mut stage = Stage::new(1, 1);
     for Change { name, make, shows } in changes_of_objects().into_iter().chain(changes_around()) {
         let things = set(&mut stage);
@@ -364,7 +365,7 @@ fn whatever_changes_shows_at_once() {
         make(&mut stage, &things);
         let after = stage.float();
         assert!(!shows || difference(&before[3], &after) > 1e-3, "{name}: changes nothing");
-        // All is made anew once something else was there.
+        // Everything is rebuilt after another scene.
         let mesh = stage.handle(&Cuboid::default().into());
         let other = stage.spawn((Mesh3d(mesh), Transform::default()));
         stage.float();
@@ -372,7 +373,7 @@ fn whatever_changes_shows_at_once() {
         let anew = stage.float();
         assert_identical(name, &after, &anew);
     }
-    // Generic ones shade a little more of what may be left out.
+    // Generic ones shade a few terms that may be left out.
     assert!(stage.report().pipelines_live <= 128, "more pipelines than are kept");
 }
 
@@ -430,7 +431,7 @@ fn a_light_that_is_disabled_as_another_is_enabled_shows_at_once() {
 }
 
 #[test]
-fn what_is_refused_is_told_in_each_frame_of_a_still_scene() {
+fn an_invalid_entity_is_an_error_in_each_still_frame() {
     let mut stage = Stage::new(1, 1);
     let things = set(&mut stage);
     insert_on(&mut stage, things[0], Material { shininess: -1.0, ..material() });

@@ -31,7 +31,8 @@ fn tilted(degrees: f32) -> Vec3 {
 
 /// A wall that fills the picture, with its normal tilted, seen by an infinite viewer: v is +Z at every pixel.
 fn wall(normal: f32, material: Material) -> Scene {
-    let mut scene = Scene::in_eye_space().with(Thing::new(screen([tilted(normal).to_array(); 4])).of(material));
+    let mut scene =
+        Scene::in_eye_space().with(Thing::new(screen([tilted(normal).to_array(); 4])).with_material(material));
     scene.camera.viewer = Viewer::Infinite;
     scene
 }
@@ -77,7 +78,7 @@ fn lambert_and_both_highlights_at_chosen_angles() {
 }
 
 #[test]
-fn light_from_behind_makes_no_highlight_whatever_the_halfway_vector_says() {
+fn light_from_behind_makes_no_highlight() {
     let mut stage = Stage::new(9, 9);
     // n at 60° from v and l at 20° beyond v on the other side: n·l = cos 80° > 0 lights, and cos 100° does not, though
     // n·h = cos 40° in both.
@@ -115,7 +116,8 @@ fn before_the_wall(
         // Flat shades the centroid, which is the middle of a triangle about it.
         let triangle =
             mesh(&[[-9.0, -9.0, -4.0], [9.0, -9.0, -4.0], [0.0, 18.0, -4.0]], &[[0.0, 0.0, 1.0]; 3], &[0, 1, 2]);
-        let scene = Scene::in_eye_space().with(Thing::new(triangle).of(matte).shaded(shading)).lit(lamp.clone());
+        let scene =
+            Scene::in_eye_space().with(Thing::new(triangle).with_material(matte).shaded(shading)).lit(lamp.clone());
         let expected = f64::from(KD) * factor;
         // The distance is known to 10⁻⁷ of the wall's own, and its square weakens the light.
         let tolerance = 2e-6 * expected.max(0.1) * f64::from(4.0 / distance).max(1.0);
@@ -192,7 +194,9 @@ fn ten_colours_between_two_vertices() {
     let [a, b] = [n1, n2].map(|n| n.as_vec3().to_array());
     let strip = mesh(&corners, &[a, b, b, a], &[0, 1, 2, 0, 2, 3]);
     let red = Material { ambient: LinearRgba::BLACK, ..Material::matte(LinearRgba::rgb(1.0, 0.0, 0.0)) };
-    scene = scene.with(Thing::new(strip).of(red)).lit(Lamp::directional(DirectionalLight::white(), -l.as_vec3()));
+    scene = scene
+        .with(Thing::new(strip).with_material(red))
+        .lit(Lamp::directional(DirectionalLight::white(), -l.as_vec3()));
     for shading in SMOOTH {
         scene.things[0].shading = Some(shading);
         let picture = stage.draw(&scene);
@@ -216,7 +220,7 @@ fn a_light_with_w_of_zero_is_directional() {
     let place = from_homogeneous(toward).expect("a place");
     assert!(matches!(place, LightPlace::Directional(_)), "{place:?}");
     let mut lamp = Lamp::directional(directional_light(), Vec3::NEG_Z);
-    let scene = || Scene::in_eye_space().with(Thing::new(screen([[0.0, 0.0, 1.0]; 4])).of(glossy(8.0)));
+    let scene = || Scene::in_eye_space().with(Thing::new(screen([[0.0, 0.0, 1.0]; 4])).with_material(glossy(8.0)));
     let along = stage.draw(&scene().lit(Lamp::directional(directional_light(), -toward.truncate())));
     lamp.at = place.transform();
     let placed = stage.draw(&scene().lit(lamp));
@@ -269,10 +273,11 @@ fn four_times_the_shininess_makes_phongs_highlight_of_blinns() {
 }
 
 #[test]
-fn what_glows_is_as_bright_from_everywhere() {
+fn emission_does_not_depend_on_the_view() {
     let mut stage = Stage::new(9, 9);
     for distance in [0.2, 1.0, 1e6] {
-        let square = Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 9.0 * distance).of(glowing(0.125, 0.0, 0.0));
+        let square =
+            Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 9.0 * distance).with_material(glowing(0.125, 0.0, 0.0));
         assert_centre(&format!("{distance} away"), &mut stage, &Scene::in_eye_space().with(square), 0.125, 0.0);
     }
 }
@@ -295,7 +300,7 @@ fn a_sphere_has_one_size_at_all_depths_of_an_orthographic_view() {
     const SIDE: u32 = 160;
     let mut stage = Stage::new(SIDE, SIDE);
     let mut draw = |projection: Projection, depth: f32| {
-        let ball = Thing::new(UvSphere::new(1.0, 96, 48)).of(glowing(0.5, 0.5, 0.5));
+        let ball = Thing::new(UvSphere::new(1.0, 96, 48)).with_material(glowing(0.5, 0.5, 0.5));
         let mut scene = Scene::in_eye_space().with(ball.at(Transform::from_xyz(0.3, -0.2, -depth)));
         scene.camera.projection = projection;
         silhouette(&mut stage, &scene)

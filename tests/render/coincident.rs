@@ -1,11 +1,11 @@
-//! Lights at the very place of a vertex.
+//! Lights at the exact position of a vertex.
 
 use crate::render::compare::{Failures, SRGB};
 use crate::render::scene::{Lamp, Scene, Thing, rotated};
 use crate::render::stage::Stage;
 use halfway::prelude::*;
 
-/// Of such a light the direction was that of rounding errors, and its intensity that of their length.
+/// The direction and the intensity of such a light once came from rounding errors.
 #[test]
 fn a_light_on_a_vertex_shines_along_the_normal() {
     let mut stage = Stage::new(48, 48);
@@ -18,7 +18,7 @@ fn a_light_on_a_vertex_shines_along_the_normal() {
     for (number, vertex) in positions.iter().enumerate().step_by(3) {
         let turned = rotated(0.3 + 0.1 * number as f32, 0.5, 0.2).with_translation(Vec3::new(3.1, -0.7, 0.9));
         let at = turned.transform_point(*vertex);
-        // From where the vertex is seen.
+        // From a point where the vertex is visible.
         let middle = turned.translation;
         let scene = Scene::seen_from(middle + 3.5 * (at - middle) + Vec3::new(0.2, 0.3, 0.1), middle)
             .with(Thing::new(sphere).at(turned).shaded(Shading::Gouraud))

@@ -1,4 +1,4 @@
-//! Colours at the vertices: what they do is what the oracle says, and what does not have them pays nothing for them.
+//! Vertex colours match the oracle, and objects without them do not pay for them.
 
 use crate::render::compare::{FLOAT, judge};
 use crate::render::conformance::colors::colored;
@@ -64,7 +64,7 @@ fn one_color_everywhere_is_another_material() {
 }
 
 #[test]
-fn a_picture_without_the_colors_is_found_out() {
+fn a_picture_without_vertex_colors_is_found() {
     let mut stage = Stage::new(64, 48);
     for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
         let mesh = colored(UvSphere::new(1.0, 24, 12));

@@ -11,15 +11,15 @@ use std::path::Path;
 pub(crate) const FLOAT: Bars = Bars::FLOAT;
 
 /// The curve of an adapter may be 0.6 of a step off (Vulkan's conversion rules), so that a value a tenth of a step from
-/// the middle between two bytes becomes either. How many pixels have such values is the scene's affair; of a picture of
-/// one colour it may be all.
+/// the middle between two bytes becomes either. The number of pixels with such values depends on the scene; in a
+/// picture of one colour it may be all.
 pub(crate) const SRGB: Bars = Bars { equal: 0.0, ..Bars::bytes(Encoding::Srgb) };
 
 /// Each layer is rounded to bytes before the next is blended over it, where the oracle rounds once: fewer bytes are
 /// equal.
 pub(crate) const BLENDED: Bars = Bars { equal: 0.0, ..Bars::bytes(Encoding::Raw) };
-/// Bytes of scenes with more than eight lights: a patch may leave out what adds up to half a step, and as large a part
-/// of the pixels rounds to the step below as of a step is left out.
+/// Bytes of scenes with more than eight lights: a patch may leave out light of up to half a step, and the share of
+/// pixels that rounds to the step below equals the share of a step that is left out.
 pub(crate) const SELECTED: Bars = Bars { equal: 0.5, ..Bars::bytes(Encoding::Raw) };
 
 /// The rows of a table that failed, so that one does not hide the others.
@@ -33,13 +33,13 @@ impl Failures {
         }
     }
 
-    /// Draws `scene`, and adds the row unless it shows something, and is what the oracle says within `bars`.
+    /// Draws `scene`, and adds the row unless it shows something and matches the oracle within `bars`.
     pub(crate) fn draw(&mut self, row: &str, stage: &mut Stage, scene: &Scene, bars: Bars) -> Verdict {
         let picture = stage.draw(scene);
         self.compare(row, stage, &picture, bars)
     }
 
-    /// Adds the row unless `picture` shows something, and is what the oracle says of what stands on the stage.
+    /// Adds the row unless `picture` shows something and matches the oracle's picture of the stage.
     pub(crate) fn compare(&mut self, row: &str, stage: &mut Stage, picture: &Rgba32FImage, bars: Bars) -> Verdict {
         self.unless(picture.pixels().all(|pixel| pixel.0[3] == 1.0), || format!("{row} is not opaque"));
         let (verdict, expected) = self.judge(row, stage, &Image::from_float(picture), bars);
@@ -48,13 +48,13 @@ impl Failures {
         verdict
     }
 
-    /// Draws `scene`, of which nothing may be seen, and adds the row unless it is what the oracle says within `bars`.
+    /// Draws `scene`, which may be invisible, and adds the row unless it matches the oracle within `bars`.
     pub(crate) fn draw_any(&mut self, row: &str, stage: &mut Stage, scene: &Scene, bars: Bars) -> Verdict {
         let picture = Image::from_float(&stage.draw(scene));
         self.judge(row, stage, &picture, bars).0
     }
 
-    /// Adds the row unless a picture of bytes is what the oracle says of what stands on the stage.
+    /// Adds the row unless a picture of bytes matches the oracle's picture of the stage.
     pub(crate) fn compare_bytes(&mut self, row: &str, stage: &mut Stage, picture: &RgbaImage, bars: Bars) -> Verdict {
         self.unless(picture.pixels().all(|pixel| pixel.0[3] == 255), || format!("{row} is not opaque"));
         let picture = Image::from_bytes(picture, encoding(&bars));
@@ -78,7 +78,7 @@ impl Failures {
     }
 }
 
-/// A picture judged by what the oracle says of what stands on the stage, which is returned too.
+/// Judges a picture by the oracle's picture of the stage, which is returned too.
 pub(crate) fn judge(stage: &mut Stage, actual: &Image, bars: Bars) -> (Verdict, Image) {
     let truth = stage.oracle().with_clamping(bars.are_clamped());
     let expected = truth.draw();
@@ -86,7 +86,7 @@ pub(crate) fn judge(stage: &mut Stage, actual: &Image, bars: Bars) -> (Verdict, 
     (verdict.expect("pictures of one size"), expected)
 }
 
-/// The encoding that errors are counted in; of floating point, the one its pictures are shown in.
+/// The encoding in which errors are counted; for floating point, the encoding for display.
 fn encoding(bars: &Bars) -> Encoding {
     match bars.measure {
         Measure::Steps(encoding) => encoding,
@@ -94,7 +94,7 @@ fn encoding(bars: &Bars) -> Encoding {
     }
 }
 
-/// Draws `scene`, and fails unless it shows something, and is what the oracle says within [`FLOAT`].
+/// Draws `scene`, and fails unless it shows something and matches the oracle within [`FLOAT`].
 pub(crate) fn assert_as_expected(row: &str, stage: &mut Stage, scene: &Scene) -> Verdict {
     let mut failures = Failures::default();
     let verdict = failures.draw(row, stage, scene, FLOAT);

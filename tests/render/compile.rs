@@ -1,4 +1,4 @@
-//! Pipelines that are built beside the frames: nothing waits for those of its own, and nothing looks different.
+//! Pipelines built in the background: no frame waits for its specialised ones, and pictures do not change.
 
 use crate::render::compare::{FLOAT, Failures, assert_identical};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light};
@@ -33,7 +33,7 @@ fn counts(stage: &Stage) -> (u32, u32, u32) {
 const RELATIVES: u32 = 6;
 
 #[test]
-fn the_first_frame_builds_what_it_needs_and_the_second_asks_for_generic_ones() {
+fn the_second_frame_requests_generic_pipelines() {
     let mut stage = stage();
     let first = stage.draw(&ball());
     assert_eq!(counts(&stage), (1, 0, 1));
@@ -80,7 +80,7 @@ fn a_new_kind_is_drawn_at_once_and_by_its_own_pipeline_in_time() {
         ("Phong's reflectance", true, |scene| scene.view_reflectance = Some(Reflectance::Phong)),
         ("flat shading", true, |scene| scene.view_shading = Some(Shading::Flat)),
         ("Gouraud shading", true, |scene| scene.view_shading = Some(Shading::Gouraud)),
-        // Of these the generic one has not been foreseen.
+        // The generic pipelines of these are not built in advance.
         ("without a highlight", false, |scene| scene.things[0].material.specular = LinearRgba::BLACK),
         ("an infinite viewer", false, |scene| scene.camera.viewer = Viewer::Infinite),
         ("both faces", false, |scene| {
@@ -100,7 +100,7 @@ fn a_new_kind_is_drawn_at_once_and_by_its_own_pipeline_in_time() {
         failures.draw(&format!("{row}, generic"), &mut stage, &scene, FLOAT);
         let generic = u32::from(!foreseen);
         assert_eq!(counts(&stage), (1 + RELATIVES + generic, 1, generic), "{row}");
-        // Lights are compiled into a pipeline of one's own; generic ones read lists.
+        // Specialised pipelines have their lights compiled in; generic ones read lists.
         assert!(stage.report().lights_assigned > 0, "{row} is not drawn by a generic pipeline");
         stage.compile();
         let picture = stage.float();
@@ -137,7 +137,7 @@ fn no_frame_after_the_first_waits_in_a_scene_that_changes() {
         }
     }
     stage.compile();
-    // One of each was there before: the first frame's.
+    // One of each existed before: the first frame's.
     assert_eq!(counts(&stage), (before + asked - 1, 0, 0));
 }
 
@@ -182,7 +182,7 @@ fn both_sides_of_what_is_blended_change_pipelines_together() {
 }
 
 #[test]
-fn headless_pictures_wait_unless_they_are_told_not_to() {
+fn headless_pictures_wait_for_pipelines_by_default() {
     let mut stage = Stage::new(24, 24);
     let mut scene = ball();
     for (lamps, built) in [(2, 1), (1, 2), (0, 3)] {
@@ -200,7 +200,7 @@ fn headless_pictures_wait_unless_they_are_told_not_to() {
 }
 
 #[test]
-fn of_many_lights_only_what_is_going_to_draw_is_built() {
+fn many_lights_build_only_the_pipelines_that_draw() {
     let mut scene = Scene::in_eye_space().with(Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 1.0));
     for i in 0..12_u8 {
         scene = scene.lit(Lamp::point(point_light(), Vec3::new(0.1 * f32::from(i), 0.2, 0.0)));

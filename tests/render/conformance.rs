@@ -25,7 +25,7 @@ use halfway::texture::FarNormals;
 /// Small, and no multiple of anything: rows of pixels are padded on their way back.
 const SIZE: UVec2 = UVec2::new(76, 60);
 
-/// A scene with a name, and what its pictures have to keep to.
+/// A scene with a name, and the bars of its pictures.
 struct Row {
     name: String,
     scene: Scene,
@@ -112,9 +112,9 @@ impl Worst {
     }
 }
 
-/// Which of the rows that drivers compile slowly, those with colours of vertices, images, solids or environments, are
-/// drawn: of each `of` one after the other the one of this number. `HALFWAY_SHARE=1/3` says so, from 1 on; by default
-/// it is all. Each row of a share is drawn in floating point and in one encoding, raw and sRGB by turns.
+/// The share of rows that is drawn, of those that drivers compile slowly (vertex colours, images, solids,
+/// environments): one of each `of` consecutive rows, by its number. `HALFWAY_SHARE=1/3` selects the first of three; the
+/// default is all. Each row of a share is drawn in floating point and in one encoding, raw and sRGB by turns.
 struct Share {
     number: usize,
     of: usize,
@@ -258,8 +258,8 @@ fn every_policy_of_intensity_conforms_after_averaging() {
     conform_on_fine_grids("policies of intensity, four samples", &policies::rows(Samples::Four));
 }
 
-/// On a grid of 1/16 pixel it is not known which samples a triangle covers, and a pixel is one of more colors than the
-/// oracle tells apart; elsewhere they are.
+/// On a grid of 1/16 pixel the covered samples of a triangle are uncertain, and a pixel has more possible colors than
+/// the oracle distinguishes; so only adapters with finer grids draw these.
 fn conform_on_fine_grids(title: &str, rows: &[Row]) {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     stage.frame();
@@ -299,7 +299,7 @@ fn highlights_of_moments_conform() {
 }
 
 #[test]
-fn highlights_of_other_far_normals_are_found_out() {
+fn highlights_of_other_far_normals_are_found() {
     use FarNormals::{Lean, Mean, Toksvig};
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     let pairs = [(Toksvig, Mean), (Lean, Mean), (Lean, Toksvig)];

@@ -1,4 +1,4 @@
-//! The counters of a frame: nothing is done twice, and nothing that cannot be seen.
+//! The counters of a frame: no work is done twice, or for invisible objects.
 
 use crate::render::compare::{Failures, assert_as_expected, assert_identical};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light};
@@ -30,7 +30,7 @@ fn a_hundred_equal_objects_are_one_draw() {
     assert_eq!(report.triangles, 100 * 2 * 8 * 3);
     assert_eq!(report.matrices, 100);
     assert_eq!(report.errors, []);
-    // The CPU has none.
+    // The CPU has no pipelines.
     assert_eq!(report.pipelines, u32::from(!stage.is_on_cpu()));
 }
 
@@ -134,7 +134,7 @@ fn an_equal_frame_computes_and_uploads_nothing() {
 }
 
 #[test]
-fn a_change_uploads_what_changed() {
+fn a_change_uploads_only_the_changed_bytes() {
     let mut stage = Stage::new(32, 32);
     let things = stage.set(&crowd());
     stage.float();
@@ -253,7 +253,7 @@ fn numbers_alone_make_no_pipelines() {
 }
 
 #[test]
-fn what_the_frustum_does_not_see_is_not_drawn() {
+fn objects_outside_the_frustum_are_not_drawn() {
     // A picture twice as wide as high, 90° high: |y| ≤ depth, |x| ≤ 2·depth. A sphere's box has a radius of √3.
     let reach = 3f32.sqrt();
     let beside = |slope: f32, distance: f32| {
@@ -288,7 +288,7 @@ fn what_the_frustum_does_not_see_is_not_drawn() {
         assert_eq!(report.objects, 1, "{row}");
         let shows = picture.pixels().any(|pixel| pixel.0[0] > 0.0);
         match seen {
-            // Visible parts must have been drawn, and those cut away must not.
+            // Visible parts must have been drawn, and culled ones must not.
             Some(true) => {
                 assert!(shows && report.visible == 1 && report.draws == 1, "{row}: shows {shows}, {report:?}");
             }
@@ -299,7 +299,7 @@ fn what_the_frustum_does_not_see_is_not_drawn() {
 }
 
 #[test]
-fn scaled_and_sheared_objects_are_never_cut_away_while_they_show() {
+fn visible_sheared_objects_are_never_culled() {
     // A long thin object whose centre is far outside and whose end is in the middle of the picture.
     let mut stage = Stage::new(32, 32);
     let turn = Transform::from_rotation(Quat::from_rotation_z(0.7));
@@ -329,7 +329,7 @@ fn scaled_and_sheared_objects_are_never_cut_away_while_they_show() {
 }
 
 #[test]
-fn what_a_draw_does_not_use_is_not_in_its_shader() {
+fn shaders_hold_only_the_features_of_their_draw() {
     // Each of these is a variant of its own beside the plain one.
     let rows: [(&str, fn(&mut Scene)); 10] = [
         ("without a highlight", |scene| scene.things[0].material.specular = LinearRgba::BLACK),

@@ -1,4 +1,4 @@
-//! The CPU as what draws, whatever adapter draws the other tests; `cargo xtask adapters` runs those on the CPU, too.
+//! The CPU renderer, under every adapter of the other tests; `cargo xtask adapters` also runs those on the CPU.
 
 use crate::render::compare::{FLOAT, Failures, SRGB, assert_identical};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
@@ -17,11 +17,11 @@ fn stage_on(adapter: &str) -> Stage {
 /// Balls in every shading on a floor in patches, one of glass, under more lights than are counted or under few.
 fn scene(lights: u8) -> Scene {
     let mut scene = Scene::seen_from(Vec3::new(0.0, 3.0, 6.0), Vec3::ZERO).ambient(0.1);
-    scene = scene.with(Thing::new(Plane { size: 9.0, divisions: 64 }).of(other_material()));
+    scene = scene.with(Thing::new(Plane { size: 9.0, divisions: 64 }).with_material(other_material()));
     for (i, shading) in (0u8..).zip([Shading::Flat, Shading::Gouraud, Shading::Phong]) {
         let at = Vec3::new(1.7 * f32::from(i) - 2.2, 0.5, 0.3 * f32::from(i));
         let thing = Thing::new(UvSphere::new(0.5, 16, 8)).at(Transform::from_translation(at));
-        scene = scene.with(thing.of([material(), Material::BRASS][usize::from(i % 2)]).shaded(shading));
+        scene = scene.with(thing.with_material([material(), Material::BRASS][usize::from(i % 2)]).shaded(shading));
     }
     let glass = Thing::new(Cuboid::new(1.0, 1.0, 1.0)).faces(Faces::Both).blended(0.4);
     scene = scene.with(glass.at(Transform::from_xyz(0.4, 0.6, 1.6).with_rotation(Quat::from_rotation_y(0.4))));
@@ -36,7 +36,7 @@ fn scene(lights: u8) -> Scene {
 }
 
 #[test]
-fn it_draws_what_the_oracle_says() {
+fn the_cpu_matches_the_oracle() {
     let mut stage = stage_on("cpu");
     let mut failures = Failures::default();
     for lights in [0, 20] {
@@ -60,7 +60,7 @@ fn all_vectors_give_the_same_bits() {
     let mut tried = 0;
     for vectors in ["avx512", "avx2", "neon", "plain"] {
         let choice = AdapterChoice::named(format!("cpu:{vectors}"));
-        // This CPU has some of them.
+        // This CPU has only some of the SIMD levels.
         let Ok(adapter) = choice.open() else { continue };
         assert_eq!(adapter.describe(), format!("{vectors} (cpu, software)"));
         assert_identical(vectors, &widest, &stage_on(&format!("CPU:{vectors}")).draw(&scene(20)));
@@ -70,7 +70,7 @@ fn all_vectors_give_the_same_bits() {
 }
 
 #[test]
-fn what_draws_may_change_between_frames() {
+fn the_adapter_may_change_between_frames() {
     let mut stage = stage_on("cpu");
     let own = stage.draw(&scene(0));
     let gpu = Gpu::open_headless().expect("an adapter");
@@ -86,7 +86,7 @@ fn what_draws_may_change_between_frames() {
 }
 
 #[test]
-fn what_it_cannot_draw_is_an_error_and_the_next_picture_is_right() {
+fn an_undrawable_frame_is_an_error_and_the_next_is_right() {
     let mut stage = stage_on("cpu");
     let own = stage.draw(&scene(0));
     stage.target_size(20_000, 1);
@@ -132,7 +132,7 @@ fn a_device_s_texture_is_not_the_cpu_s_to_draw_into() {
     assert!(error.contains("Rgba8UnormSrgb") && error.contains("expected a `Gpu`"), "{error}");
 }
 
-/// Where the newest frame's bytes are, and their size.
+/// The address and the size of the newest frame's bytes.
 fn shown(stage: &Stage) -> Option<(UVec2, *const u8)> {
     stage.app.world().resource::<Canvas>().bytes().map(|(size, bytes)| (size, bytes.as_ptr()))
 }

@@ -1,5 +1,4 @@
-//! Patches of large meshes: those that are out of sight or turned away are not drawn, and nothing that shows is
-//! missing.
+//! Patches of large meshes: those outside the frustum or facing away are culled, and nothing visible is missing.
 
 use crate::render::compare::{FLOAT, Failures};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light, rotated, scaled};
@@ -9,10 +8,10 @@ use std::ops::RangeInclusive;
 
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 const FACES: [Faces; 3] = [Faces::Front, Faces::Back, Faces::Both];
-/// Of 65,024 triangles. The normals of a patch of 32 are spread by a few degrees, so that a ring of patches about the
-/// outline is drawn in which no triangle shows; the finer the sphere, the narrower it is.
+/// A sphere of 65,024 triangles. The normals of a patch of 32 spread by a few degrees, so that a ring of patches about
+/// the outline is drawn without a visible triangle; the finer the sphere, the narrower the ring.
 const SPHERE: UvSphere = UvSphere { radius: 1.0, segments: 256, rings: 128 };
-/// Of 8,064 triangles, which are wider than what rounding moves them by.
+/// A sphere of 8,064 triangles, which are wider than their rounding errors.
 const COARSE: UvSphere = UvSphere { radius: 1.0, segments: 64, rings: 64 };
 
 fn lit(scene: Scene) -> Scene {
@@ -83,8 +82,7 @@ fn sheared_spheres_are_whole() {
             let mut scene = lit(Scene::seen_from(Vec3::new(3.0, 5.0, 19.0), Vec3::ZERO));
             scene.camera.projection = Projection::perspective(0.25);
             let scene = scene.with(Thing::new(COARSE).frames(frames.clone()).faces(faces).back(other_material()));
-            // Their normals are spread otherwise than those of the mesh, so that patches may be kept that are turned
-            // away.
+            // Their normals spread differently from those of the mesh, so that patches that face away may be kept.
             assert_culled(&mut failures, &mut stage, &format!("{row}, {faces:?} faces"), &scene, 0.0..=0.6);
         }
     }
@@ -132,7 +130,7 @@ fn walls_close_by_are_cut_at_the_borders_alone() {
 }
 
 #[test]
-fn what_is_seen_as_a_whole_is_drawn_as_a_whole() {
+fn a_flat_wall_is_culled_whole_or_not_at_all() {
     let mut stage = Stage::new(64, 64);
     let mut failures = Failures::default();
     let wall = Plane { size: 2.0, divisions: 64 };

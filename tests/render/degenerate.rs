@@ -1,4 +1,4 @@
-//! A case with less in it equals the simpler case it amounts to.
+//! A degenerate case equals the simpler case that it reduces to.
 
 use crate::render::compare::{assert_identical, brightest, difference};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, glowing, material, point_light};
@@ -23,7 +23,7 @@ fn lit(lamps: impl IntoIterator<Item = Lamp>) -> Scene {
 }
 
 /// The scene with another material on everything.
-fn of(mut scene: Scene, material: Material) -> Scene {
+fn with_material_everywhere(mut scene: Scene, material: Material) -> Scene {
     for thing in &mut scene.things {
         thing.material = material;
     }
@@ -59,7 +59,7 @@ fn without_lights_there_is_emission_and_ambient() {
 }
 
 #[test]
-fn equal_scenes_told_differently_are_equal_to_the_bit() {
+fn equivalent_scenes_are_equal_to_the_bit() {
     let black = LinearRgba::BLACK;
     let no_ks = Material { specular: black, ..material() };
     let no_ls = PointLight { specular: black, ..point_light() };
@@ -78,13 +78,17 @@ fn equal_scenes_told_differently_are_equal_to_the_bit() {
         ),
         (
             "without ks the shininess does nothing",
-            of(lit([point(point_light())]), Material { shininess: 3.0, ..no_ks }),
-            of(lit([point(point_light())]), no_ks),
+            with_material_everywhere(lit([point(point_light())]), Material { shininess: 3.0, ..no_ks }),
+            with_material_everywhere(lit([point(point_light())]), no_ks),
         ),
-        ("lights without Ls make no highlight", lit([point(no_ls)]), of(lit([point(point_light())]), no_ks)),
+        (
+            "lights without Ls make no highlight",
+            lit([point(no_ls)]),
+            with_material_everywhere(lit([point(point_light())]), no_ks),
+        ),
         (
             "an opacity without AlphaMode does nothing",
-            of(lit([point(point_light())]), Material { opacity: 0.3, ..material() }),
+            with_material_everywhere(lit([point(point_light())]), Material { opacity: 0.3, ..material() }),
             lit([point(point_light())]),
         ),
     ];
@@ -108,7 +112,8 @@ fn nearly_equal_scenes_are_nearly_equal() {
     let wide = Cone { cutoff: std::f32::consts::FRAC_PI_2, inner: None, exponent: 0.0 };
     let direction = Vec3::new(-0.5, -0.8, -0.6);
     let far = Lamp::point(unweakened, direction * -1e6);
-    let with_alpha = |shininess| of(lit([point(point_light())]), Material { shininess, ..material() });
+    let with_alpha =
+        |shininess| with_material_everywhere(lit([point(point_light())]), Material { shininess, ..material() });
     let ambient_of = |light: f32, global: f32| {
         let grey = LinearRgba::rgb(light, light, light);
         lit([point(PointLight { ambient: grey, ..point_light() })]).ambient(global)
@@ -170,8 +175,10 @@ fn without_ks_every_reflectance_is_lambert() {
         Material { ambient: LinearRgba::BLACK, emission: LinearRgba::BLACK, specular: LinearRgba::BLACK, ..material() };
     for shading in SHADINGS {
         for reflectance in REFLECTANCES {
-            let square =
-                Thing::square(Vec3::NEG_Z * 3.0, Vec3::Z, 9.0).of(matte).shaded(shading).reflecting(reflectance);
+            let square = Thing::square(Vec3::NEG_Z * 3.0, Vec3::Z, 9.0)
+                .with_material(matte)
+                .shaded(shading)
+                .reflecting(reflectance);
             let picture = stage.draw(&Scene::in_eye_space().with(square).lit(Lamp::directional(light, direction)));
             for pixel in picture.pixels() {
                 let expected = [0.70 * 0.90 * 0.5, 0.45 * 0.80 * 0.5, 0.30 * 1.00 * 0.5];
@@ -196,7 +203,8 @@ fn emission_is_untouched_by_lights_and_transforms() {
         for transform in transforms {
             for lamps in [vec![], vec![point(point_light()), Lamp::directional(directional_light(), Vec3::NEG_Z)]] {
                 let count = lamps.len();
-                let sphere = Thing::new(UvSphere::default()).of(glowing(0.3, 0.6, 0.9)).shaded(shading).at(transform);
+                let sphere =
+                    Thing::new(UvSphere::default()).with_material(glowing(0.3, 0.6, 0.9)).shaded(shading).at(transform);
                 let mut scene = Scene::seen_from(Vec3::Z * 4.0, Vec3::ZERO).ambient(0.5).with(sphere);
                 scene.lamps = lamps;
                 let row = format!("{shading:?}, {count} lights, {transform:?}");
@@ -207,7 +215,7 @@ fn emission_is_untouched_by_lights_and_transforms() {
 }
 
 #[test]
-fn the_views_shading_and_reflectance_are_the_defaults_of_its_objects() {
+fn objects_inherit_the_cameras_shading_and_reflectance() {
     let mut stage = Stage::new(48, 48);
     let scene = |view: Option<(Shading, Reflectance)>, own: Option<(Shading, Reflectance)>| {
         let mut scene = lit([point(point_light())]);

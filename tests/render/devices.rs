@@ -1,4 +1,4 @@
-//! The device is lost, or another one takes its place.
+//! The device is lost or replaced.
 
 use crate::render::scene::{Lamp, Map, Scene, Thing, directional_light, material, other_material, point_light};
 use crate::render::stage::Stage;
@@ -8,12 +8,12 @@ use halfway::prelude::*;
 use halfway::render::{Compile, Gpu, GpuTimer, PendingPicture, RenderError, RenderSet, wgpu};
 use halfway::texture::TexelImage;
 
-/// Something of all that a device holds: flat, smooth and blended meshes, patches, few lights and many.
+/// A scene with every kind of resource of a device: flat, smooth and blended meshes, patches, few lights and many.
 fn scene(lights: u8) -> Scene {
     let mut scene = Scene::seen_from(Vec3::new(0.0, 3.0, 6.0), Vec3::ZERO).ambient(0.1);
     scene = scene
-        .with(Thing::new(Plane { size: 9.0, divisions: 64 }).of(other_material()))
-        .with(Thing::new(UvSphere::new(0.8, 24, 12)).of(material()).shaded(Shading::Gouraud))
+        .with(Thing::new(Plane { size: 9.0, divisions: 64 }).with_material(other_material()))
+        .with(Thing::new(UvSphere::new(0.8, 24, 12)).with_material(material()).shaded(Shading::Gouraud))
         .with(Thing::new(Cuboid::default()).at(Transform::from_xyz(1.5, 0.5, 0.0)).shaded(Shading::Flat))
         .with(Thing::new(Cuboid::default()).at(Transform::from_xyz(-1.5, 0.5, 1.0)).blended(0.5))
         .lit(Lamp::directional(directional_light(), Vec3::new(-0.4, -0.5, -1.0)));
@@ -32,9 +32,9 @@ fn is_loss<T>(result: &Result<T, RenderError>) -> bool {
     matches!(result, Err(RenderError::DeviceLost(reason)) if reason == "it was destroyed")
 }
 
-/// An image that is too large for the device is told, and what comes after it has its own.
+/// An image that is too large for the device is an error, and objects after it have their own images.
 #[test]
-fn what_comes_after_an_image_that_is_too_large_is_drawn() {
+fn objects_after_an_oversized_image_are_drawn() {
     let mut gpu = Gpu::open_headless().expect("an adapter");
     let adapter = gpu.adapter.clone().expect("a device of its own has one");
     let limits = wgpu::Limits { max_texture_dimension_2d: 64, ..adapter.limits() };
@@ -153,13 +153,13 @@ fn a_picture_on_its_way_comes_from_its_own_device() {
     let expected = stage.draw(&scene(1));
     let request = |stage: &mut Stage| PendingPicture::request(stage.app.world()).expect("a frame has been drawn");
 
-    // Another device takes the place of the one that it is on its way from.
+    // Another device replaces the one that holds the pending picture.
     let pending = request(&mut stage);
     stage.world().insert_resource(Gpu::open_headless().expect("an adapter"));
     stage.frame();
     assert_eq!(pending.wait(), Ok(Picture::Float(expected.clone())));
 
-    // It was on its way before the device was lost: it arrives, or there is an error; nothing waits for ever.
+    // The picture was pending before the device was lost: it arrives, or there is an error; nothing waits for ever.
     let (pending, mut polled) = (request(&mut stage), request(&mut stage));
     lose(stage.app.world());
     let arrived = pending.wait();
@@ -167,7 +167,7 @@ fn a_picture_on_its_way_comes_from_its_own_device() {
     let arrived = polled.try_take();
     assert!(is_loss(&arrived) || arrived.is_ok(), "{arrived:?}");
 
-    // It is asked for after that.
+    // The picture is requested after the loss.
     lose(stage.app.world());
     let late = request(&mut stage).wait();
     assert!(is_loss(&late), "{late:?}");

@@ -1,4 +1,4 @@
-//! The edges of the equations, as the adapter computes them: right where f64 says what is right, finite everywhere.
+//! Edge cases of the equations on the adapter: equal to f64 where that is defined, finite everywhere.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -79,7 +79,7 @@ fn a_light_opposite_the_viewer_makes_no_highlight() {
         for reflectance in REFLECTANCES {
             for shininess in [0.0, 0.5, 1.0, 19.5, 64.0] {
                 let material = Material { shininess, ..material() };
-                let thing = away.clone().of(material).shaded(shading).reflecting(reflectance);
+                let thing = away.clone().with_material(material).shaded(shading).reflecting(reflectance);
                 let row = format!("{shading:?}, {reflectance:?}, shininess {shininess}");
                 let behind = Lamp::directional(directional_light(), Vec3::Z);
                 let mut scene = Scene::in_eye_space().with(thing.clone()).lit(behind);
@@ -106,7 +106,7 @@ fn a_shininess_of_zero_lights_all_that_faces_the_light() {
             ] {
                 let sphere = Thing::new(UvSphere::new(1.0, 24, 12)).shaded(shading).reflecting(reflectance);
                 let scene = Scene::seen_from(Vec3::new(0.2, 0.3, 3.0), Vec3::ZERO)
-                    .with(sphere.of(Material { shininess: 0.0, ..material() }))
+                    .with(sphere.with_material(Material { shininess: 0.0, ..material() }))
                     .lit(lamp);
                 failures.draw(&format!("{shading:?}, {reflectance:?}"), &mut stage, &scene, FLOAT);
             }
@@ -128,7 +128,7 @@ fn every_shininess_keeps_its_highlight() {
         for reflectance in REFLECTANCES {
             let sphere = Thing::new(UvSphere::new(1.0, 96, 48)).reflecting(reflectance);
             let scene = Scene::seen_from(Vec3::new(0.0, 0.0, 2.6), Vec3::ZERO)
-                .with(sphere.of(Material { shininess, ..material() }))
+                .with(sphere.with_material(Material { shininess, ..material() }))
                 // From beside the eye, so that the highlight is near the centre.
                 .lit(Lamp::point(unweakened(), Vec3::new(0.3, 0.2, 3.0)));
             failures.draw(&format!("{shininess}, {reflectance:?}"), &mut stage, &scene, bars);
@@ -157,7 +157,7 @@ fn a_shininess_of_ten_thousand_on_a_fine_mesh() {
     for shading in SHADINGS {
         for reflectance in REFLECTANCES {
             let sphere = Thing::new(mesh.clone()).shaded(shading).reflecting(reflectance);
-            let sphere = sphere.of(Material { shininess: 1e4, specular: LinearRgba::WHITE, ..material() });
+            let sphere = sphere.with_material(Material { shininess: 1e4, specular: LinearRgba::WHITE, ..material() });
             let mut scene = Scene::seen_from(Vec3::new(0.0, 0.0, 1.3), Vec3::ZERO)
                 .with(sphere)
                 .lit(Lamp::point(unweakened(), Vec3::new(0.03, 0.02, 1.4)));
@@ -182,7 +182,7 @@ fn the_peak_of_a_highlight_is_never_lost() {
     for shininess in [0.0, 1.0, 31.9, 32.0, 1e4, 1e5, 1e8, 1e20, 1e38] {
         for reflectance in REFLECTANCES {
             let thing = Thing::new(screen([[0.0, 0.0, 1.0]; 4])).reflecting(reflectance);
-            let thing = thing.of(Material { shininess, diffuse: LinearRgba::BLACK, ..material() });
+            let thing = thing.with_material(Material { shininess, diffuse: LinearRgba::BLACK, ..material() });
             let scene = Scene::in_eye_space().with(thing).lit(Lamp::directional(directional_light(), Vec3::NEG_Z));
             let picture = stage.draw(&scene);
             let row = format!("shininess {shininess:e}, {reflectance:?}");
@@ -236,7 +236,7 @@ fn cones_at_the_ends_of_their_range() {
 #[test]
 fn a_cutoff_of_zero_lights_the_axis_alone() {
     let mut stage = Stage::new(33, 33);
-    let thing = Thing::new(screen([[0.0, 0.0, 1.0]; 4])).of(Material::matte(LinearRgba::WHITE));
+    let thing = Thing::new(screen([[0.0, 0.0, 1.0]; 4])).with_material(Material::matte(LinearRgba::WHITE));
     for cone in [Cone::new(0.0), Cone { cutoff: 0.0, inner: Some(0.0), exponent: 3.0 }] {
         let light = PointLight { attenuation: Attenuation::NONE, ..PointLight::white() };
         let spot = Lamp::spot(SpotLight { light, cone }, Vec3::ZERO, Vec3::NEG_Z);
@@ -279,7 +279,7 @@ fn a_light_very_near_a_surface_is_bounded() {
 }
 
 #[test]
-fn lights_beyond_the_square_root_of_the_number_range_keep_their_direction() {
+fn lights_farther_than_the_root_of_f32_max_keep_direction() {
     // d² overflows f32 from 1.8·10¹⁹ on.
     let mut stage = Stage::new(24, 24);
     let mut failures = Failures::default();
@@ -310,7 +310,7 @@ fn lights_beyond_the_square_root_of_the_number_range_keep_their_direction() {
 
 // More than eight are read from a list. A clamp of each coordinate would turn their directions by 21°.
 #[test]
-fn nine_lights_at_the_end_of_the_number_range_keep_their_directions() {
+fn nine_lights_at_f32_max_keep_their_directions() {
     let mut stage = Stage::new(48, 48);
     let mut failures = Failures::default();
     let dim = LinearRgba::rgb(0.2, 0.15, 0.1);
@@ -325,7 +325,7 @@ fn nine_lights_at_the_end_of_the_number_range_keep_their_directions() {
             scene = scene.lit(Lamp::point(light, Vec3::from_array(at)));
         }
         failures.draw(&format!("{shading:?}"), &mut stage, &scene, FLOAT);
-        // All nine where the finding had them: at one place.
+        // All nine at one position, as in the scene that failed.
         let mut scene = Scene { lamps: vec![], ..scene };
         for _ in 0..9 {
             scene = scene.lit(Lamp::point(light, Vec3::new(x, y, z)));

@@ -1,4 +1,4 @@
-//! Frames on a device of an engine's own, by an encoder of its own, into a texture of its own.
+//! Frames on an engine's device, with its encoder, into its texture.
 
 use crate::render::compare::assert_identical;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, other_material, point_light};
@@ -17,8 +17,8 @@ fn scene(lights: u8) -> Scene {
     let mut scene = Scene::seen_from(Vec3::new(0.0, 3.0, 6.0), Vec3::ZERO).ambient(0.1);
     scene.camera.encoding = Encoding::Raw;
     scene = scene
-        .with(Thing::new(Plane { size: 9.0, divisions: 64 }).of(other_material()))
-        .with(Thing::new(UvSphere::new(0.8, 24, 12)).of(material()))
+        .with(Thing::new(Plane { size: 9.0, divisions: 64 }).with_material(other_material()))
+        .with(Thing::new(UvSphere::new(0.8, 24, 12)).with_material(material()))
         .with(Thing::new(Cuboid::default()).at(Transform::from_xyz(1.5, 0.5, 0.0)).shaded(Shading::Flat))
         .lit(Lamp::directional(directional_light(), Vec3::new(-0.4, -0.5, -1.0)));
     for i in 0..lights {
@@ -117,7 +117,7 @@ fn a_frame_in_an_engine_s_texture_is_that_of_a_picture() {
 }
 
 #[test]
-fn what_a_plain_device_cannot_do_is_done_otherwise() {
+fn a_plain_device_uses_fallbacks() {
     let gpu = plain_device();
     assert!(gpu.device.features().is_empty() || !gpu.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE));
     let mut own = Stage::new(SIZE.x, SIZE.y);
@@ -129,7 +129,7 @@ fn what_a_plain_device_cannot_do_is_done_otherwise() {
     assert!(matches!(errors.as_slice(), [RenderError::FloatTarget { .. }]), "{errors:?}");
     // Without it, and with one sample, they are drawn to the bit.
     assert_identical("opaque", &own.draw(&scene(2)), &stage.draw(&scene(2)));
-    // Opaque objects need no blending, so that 32 bits will do for a texture of the engine's.
+    // Opaque objects need no blending, so 32 bits suffice for the engine's texture.
     let (texture, target) = texture(&gpu, wgpu::TextureFormat::Rgba32Float);
     stage.world().insert_resource(target);
     stage.set(&scene(2));
@@ -143,7 +143,7 @@ fn what_a_plain_device_cannot_do_is_done_otherwise() {
 }
 
 #[test]
-fn what_does_not_go_into_a_texture_is_said() {
+fn an_unsuitable_texture_is_an_error() {
     use wgpu::TextureFormat::{Depth32Float, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float, Rgba32Float};
     let gpu = plain_device();
     let mut stage = Stage::new(SIZE.x, SIZE.y);
@@ -272,7 +272,9 @@ const BLUE: [u8; 4] = [0, 0, 255, 255];
 fn sphere() -> Scene {
     let mut scene = Scene::seen_from(Vec3::Z * 4.0, Vec3::ZERO).ambient(0.1);
     scene.camera.encoding = Encoding::Raw;
-    scene.with(Thing::new(UvSphere::new(1.0, 24, 12)).of(material())).lit(Lamp::point(point_light(), Vec3::splat(3.0)))
+    scene
+        .with(Thing::new(UvSphere::new(1.0, 24, 12)).with_material(material()))
+        .lit(Lamp::point(point_light(), Vec3::splat(3.0)))
 }
 
 #[test]
@@ -383,7 +385,7 @@ fn what_does_not_go_together_in_a_target_is_said() {
 
 /// The device's callbacks are the engine's, so that it hears of the loss by them; the frame says what it cannot do.
 #[test]
-fn an_engine_s_device_that_is_destroyed_is_an_error_until_another_takes_its_place() {
+fn a_destroyed_engine_device_is_an_error_until_replaced() {
     for (lights, samples) in [(2, Samples::One), (20, Samples::Four)] {
         let row = format!("{lights} lights, {samples:?}");
         let gpu = plain_device();
@@ -411,7 +413,7 @@ fn an_engine_s_device_that_is_destroyed_is_an_error_until_another_takes_its_plac
     }
 }
 
-/// In a process of its own, where Mesa's OpenGL says that it is 3.3, as NVIDIA's does.
+/// Runs in a process of its own, where Mesa's OpenGL reports version 3.3, as NVIDIA's does.
 #[cfg(target_os = "linux")]
 #[test]
 fn an_engine_s_device_of_too_old_opengl_says_so_in_each_frame() {
@@ -432,7 +434,7 @@ fn an_engine_s_device_of_too_old_opengl_says_so_in_each_frame() {
 fn is_told_of_old_opengl() {
     let mut wanted = wgpu::InstanceDescriptor::new_without_display_handle();
     wanted.backends = wgpu::Backends::GL;
-    // With what wgpu looks over by default the device is lost as it is opened.
+    // With wgpu's default validation the device is lost when it is opened.
     wanted.flags = wgpu::InstanceFlags::empty();
     let instance = wgpu::Instance::new(wanted);
     let found = block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));

@@ -277,7 +277,7 @@ fn every_row_is_refused(rows: &[Row]) {
                 }
             }
         }
-        // Whatever the row spawned beside the scene.
+        // Everything that the row spawned beside the scene.
         let world = stage.world();
         let strays: Vec<Entity> = world
             .query_filtered::<Entity, Or<(With<PointLight>, With<SpotLight>, With<DirectionalLight>, With<Camera>)>>()
@@ -310,10 +310,10 @@ fn bad_views_and_targets_are_refused_by_name_and_field() {
 }
 
 #[test]
-fn what_is_refused_is_left_out_and_the_rest_is_drawn() {
+fn invalid_entities_are_left_out_and_the_rest_is_drawn() {
     let mut stage = Stage::new(16, 16);
     let square = |x: f32, name: &str, material: Material| {
-        Thing::square(Vec3::new(x, 0.0, -3.0), Vec3::Z, 1.0).named(name).of(material)
+        Thing::square(Vec3::new(x, 0.0, -3.0), Vec3::Z, 1.0).named(name).with_material(material)
     };
     let scene = Scene::in_eye_space()
         .with(square(-0.6, "good", glowing(0.5, 0.5, 0.5)))
@@ -336,10 +336,10 @@ fn what_is_refused_is_left_out_and_the_rest_is_drawn() {
 }
 
 #[test]
-fn errors_are_said_anew_every_frame_and_no_longer() {
+fn errors_last_as_long_as_their_cause() {
     let mut stage = Stage::new(8, 8);
     stage.set(&Scene {
-        things: vec![Thing::new(Cuboid::default()).of(Material { opacity: 2.0, ..Material::DEFAULT })],
+        things: vec![Thing::new(Cuboid::default()).with_material(Material { opacity: 2.0, ..Material::DEFAULT })],
         ..scene()
     });
     for _ in 0..3 {

@@ -11,8 +11,8 @@ use std::path::Path;
 fn a_failure_says_where_and_how_far_off_and_leaves_pictures() {
     let pane = |x: f32, grey: f32| {
         Scene::in_eye_space()
-            .with(Thing::square(Vec3::new(0.0, 0.0, -4.0), Vec3::Z, 9.0).of(glowing(0.5, 0.5, 0.5)))
-            .with(Thing::square(Vec3::new(x, 0.0, -3.0), Vec3::Z, 0.3).of(glowing(0.5, grey, 0.5)))
+            .with(Thing::square(Vec3::new(0.0, 0.0, -4.0), Vec3::Z, 9.0).with_material(glowing(0.5, 0.5, 0.5)))
+            .with(Thing::square(Vec3::new(x, 0.0, -3.0), Vec3::Z, 0.3).with_material(glowing(0.5, grey, 0.5)))
     };
     let mut stage = Stage::new(16, 16);
     let wrong = stage.draw(&pane(0.2, 0.25));
@@ -40,10 +40,11 @@ fn a_failure_says_where_and_how_far_off_and_leaves_pictures() {
 }
 
 #[test]
-fn what_is_not_a_number_or_transparent_fails() {
+fn nan_and_transparent_pixels_fail() {
     let mut stage = Stage::new(8, 8);
-    let good =
-        stage.draw(&Scene::in_eye_space().with(Thing::square(Vec3::NEG_Z, Vec3::Z, 9.0).of(glowing(0.5, 0.5, 0.5))));
+    let good = stage.draw(
+        &Scene::in_eye_space().with(Thing::square(Vec3::NEG_Z, Vec3::Z, 9.0).with_material(glowing(0.5, 0.5, 0.5))),
+    );
     let rows: [(&str, [f32; 4]); 5] = [
         ("NaN", [f32::NAN, 0.5, 0.5, 1.0]),
         ("infinite", [0.5, f32::INFINITY, 0.5, 1.0]),

@@ -9,8 +9,8 @@ use halfway::render::{Gpu, RenderError, wgpu};
 /// 16 bits hold no more than 65,504.
 const BRIGHT: f32 = 100_000.25;
 
-/// The adapter, but a device that grants of formats only what WebGPU grants everywhere: no blending and no four samples
-/// of 32-bit floats.
+/// A device of the adapter that supports formats only as WebGPU guarantees: no blending and no four samples of 32-bit
+/// floats.
 fn plain_device() -> Gpu {
     let mut gpu = Gpu::open_headless().expect("an adapter");
     let adapter = gpu.adapter.clone().expect("a device of its own has one");
@@ -26,7 +26,7 @@ fn stage_on(gpu: Gpu) -> Stage {
 }
 
 fn bright(blend: bool, samples: Samples) -> Scene {
-    let square = Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 9.0).of(glowing(BRIGHT, 0.1, 1e-9));
+    let square = Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 9.0).with_material(glowing(BRIGHT, 0.1, 1e-9));
     let mut scene = Scene::in_eye_space().with(if blend { square.blended(1.0) } else { square });
     scene.camera.samples = samples;
     scene

@@ -3,8 +3,8 @@
 
 use halfway::prelude as facade;
 
-/// Uses every name that the prelude has of this house, and those of bevy that a scene is written with. A name that the
-/// facade's prelude does not mean is another type than `facade::Name`, and an error.
+/// Uses every name of the prelude that this project defines, and the names of bevy that a scene uses. If a name means
+/// another type than `facade::Name`, that is a compile error.
 macro_rules! names {
     ($($name:ident)*) => {
         $(const _: fn(facade::$name) -> $name = |same| same;)*

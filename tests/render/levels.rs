@@ -1,4 +1,4 @@
-//! Levels of detail: fewer triangles where more would not show, when that is asked for.
+//! Levels of detail: with a tolerance, fewer triangles where more would not show.
 
 use crate::render::compare::assert_identical;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, point_light};
@@ -30,7 +30,7 @@ fn rough_ball() -> Mesh {
 fn one(thing: Thing, distance: f32) -> Scene {
     Scene::seen_from(Vec3::new(0.2, 0.35, 0.9).normalize() * distance, Vec3::ZERO)
         .ambient(0.1)
-        .with(thing.of(material()))
+        .with(thing.with_material(material()))
         .lit(Lamp::directional(directional_light(), Vec3::new(-0.6, -0.7, -1.0)))
         .lit(Lamp::point(point_light(), Vec3::new(-3.0, 2.0, 4.0)))
 }
@@ -179,7 +179,7 @@ fn a_pixel_halves_the_triangles_and_hardly_adds_to_the_error() {
     let (share, error) = share_and_error(1.0);
     println!("{share:.2} of the triangles, {error:.2} of the error");
     assert!(share <= 0.5 && error <= 1.15, "{share:.2} of the triangles, {error:.2} of the error");
-    // Where too much is allowed, this tells.
+    // A tolerance that is too large is detected.
     let (share, error) = share_and_error(24.0);
     assert!(share < 0.2 && error > 1.2, "within 24 pixels: {share:.2} of the triangles, {error:.2} of the error");
 }

@@ -1,4 +1,4 @@
-//! Any number of lights: none is dropped, whichever way the lists reach the shader.
+//! Any number of lights: none is dropped, however the lists reach the shader.
 
 use crate::render::compare::{FLOAT, Failures};
 use crate::render::random::between;
@@ -95,7 +95,7 @@ fn objects_of_one_frame_may_use_lists_of_different_lengths() {
     // Nothing, half of the terms, all of them, and all of them in two lists: 0, n, n and 2n lights.
     for count in [1, 5, 8, 70, 100, 128, 150] {
         let mut scene = over_floor()
-            .with(strip(-1.5).of(Material::emissive(LinearRgba::rgb(0.1, 0.2, 0.3))))
+            .with(strip(-1.5).with_material(Material::emissive(LinearRgba::rgb(0.1, 0.2, 0.3))))
             .with(strip(-0.5).terms(Frequency::Fragment, Frequency::Never))
             .with(strip(0.5).shaded(Shading::Phong))
             .with(strip(1.5).terms(Frequency::Vertex, Frequency::Fragment))
@@ -110,7 +110,7 @@ fn objects_of_one_frame_may_use_lists_of_different_lengths() {
 #[test]
 fn the_last_light_of_every_kind_shines() {
     let mut stage = Stage::new(8, 8);
-    let square = Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 9.0).of(Material::matte(LinearRgba::WHITE));
+    let square = Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 9.0).with_material(Material::matte(LinearRgba::WHITE));
     for count in COUNTS.into_iter().filter(|&count| count > 0) {
         for kind in 0..3 {
             let lamp = |i: usize| {
@@ -134,7 +134,7 @@ fn the_last_light_of_every_kind_shines() {
 #[test]
 fn a_thousand_equal_lights_are_one_a_thousand_times_as_bright() {
     let mut stage = Stage::new(8, 8);
-    let square = Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 9.0).of(Material::matte(LinearRgba::WHITE));
+    let square = Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 9.0).with_material(Material::matte(LinearRgba::WHITE));
     for count in COUNTS.into_iter().filter(|&count| count > 0) {
         let share = 1.0 / count as f32;
         let light = DirectionalLight::new(LinearRgba::rgb(share, share, share));

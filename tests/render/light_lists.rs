@@ -1,4 +1,4 @@
-//! Lists of many lights: each patch gets those that reach it, and what is left out does not show.
+//! Lists of many lights: each patch gets those that reach it, and omitted light does not show.
 
 use crate::render::compare::{FLOAT, Failures, SELECTED, SRGB, difference};
 use crate::render::random::between;
@@ -12,7 +12,7 @@ use halfway::prelude::*;
 /// The most that the stage leaves out.
 const HALF_A_STEP: f64 = 0.5 * STEP;
 
-/// Seen from straight above, so that every patch of a floor about the origin with this edge shows.
+/// A camera straight above, so that every patch of a floor about the origin with this edge shows.
 fn above(size: f32) -> Scene {
     let mut scene = Scene::seen_from(Vec3::new(0.0, size, 0.01 * size), Vec3::ZERO);
     scene.camera.projection = Projection::perspective(1.2);
@@ -77,8 +77,7 @@ fn lists_change_no_picture_by_more_than_a_step() {
                 let FrameReport { left_out, lights_assigned, .. } = *stage.report();
                 let verdict = failures.compare_bytes(&row, &mut stage, &picture, bars);
                 println!("{row}: {verdict}; {lights_assigned} terms assigned, {left_out:.1e} left out");
-                // The brightest of what is left out is known to be on top of the dimmest material's ambient at least,
-                // and of white at most.
+                // The omitted light is added to the dimmest material's ambient at least, and to white at most.
                 let ambient = &scene.things[0].material.ambient;
                 let known = [ambient.red, ambient.green, ambient.blue].map(|ka| 0.05 * f64::from(ka) + 0.03);
                 let most = known.map(|known| linear_tolerance(encoding, HALF_A_STEP, known));
@@ -93,7 +92,7 @@ fn lists_change_no_picture_by_more_than_a_step() {
 /// A light for each sixteen units of a square floor, the floor in cells of one unit. Its edge is a power of two, so
 /// that all patches are four by eight cells whatever its size.
 fn field(size: u32, material: Material) -> Scene {
-    let floor = Thing::new(Plane { size: size as f32, divisions: size }).of(material).shaded(Shading::Phong);
+    let floor = Thing::new(Plane { size: size as f32, divisions: size }).with_material(material).shaded(Shading::Phong);
     let mut scene = above(size as f32).with(floor);
     let mut random = Rng::with_seed(7);
     for _ in 0..size * size / 16 {
@@ -105,7 +104,7 @@ fn field(size: u32, material: Material) -> Scene {
 }
 
 #[test]
-fn lists_grow_with_what_lights_touch() {
+fn lists_grow_with_the_patches_in_reach_of_lights() {
     let mut stage = Stage::new(32, 32);
     let matte = Material::matte(LinearRgba::rgb(0.7, 0.6, 0.5));
     let mut of_each = |size: u32, pixels| {
@@ -147,7 +146,7 @@ fn highlights_are_listed_where_they_can_be_seen() {
     for (mesh, row) in
         [(Plane { size: 40.0, divisions: 64 }, "in patches"), (Plane { size: 1.0, divisions: 1 }, "whole")]
     {
-        let mut scene = above(40.0).with(Thing::new(mesh).of(glossy).shaded(Shading::Phong));
+        let mut scene = above(40.0).with(Thing::new(mesh).with_material(glossy).shaded(Shading::Phong));
         let mut random = Rng::with_seed(3);
         for _ in 0..100 {
             // Low and far out: halfway vectors lean by 30° and more over the most of the floor.
@@ -170,13 +169,13 @@ fn highlights_are_listed_where_they_can_be_seen() {
 fn small_floor(low: impl Iterator<Item = Lamp>, overhead: impl Iterator<Item = Lamp>, shininess: f32) -> Scene {
     let grey = LinearRgba::gray(0.5);
     let glossy = Material { specular: grey, shininess, ..Material::matte(grey) };
-    let floor = Thing::new(Plane { size: 1.0, divisions: 1 }).of(glossy).reflecting(Reflectance::BlinnPhong);
+    let floor = Thing::new(Plane { size: 1.0, divisions: 1 }).with_material(glossy).reflecting(Reflectance::BlinnPhong);
     let mut scene = above(40.0).with(floor);
     scene.lamps.extend(low.chain(overhead));
     scene
 }
 
-/// So many places, low and far out.
+/// This many positions, low and far out.
 fn around(count: usize) -> impl Iterator<Item = Vec3> {
     let turn = move |i| i as f32 / count as f32 * std::f32::consts::TAU;
     (0..count).map(turn).map(|angle| Vec3::new(60.0 * angle.cos(), 8.0, 60.0 * angle.sin()))
@@ -241,7 +240,7 @@ fn highlights_left_out_change_no_picture() {
         let mut scene = hall(24, shading);
         scene.lamps.extend(around(12).map(|at| Lamp::point(dim(), at)));
         for thing in &mut scene.things {
-            *thing = thing.clone().of(Material { shininess: 120.5, ..material() });
+            *thing = thing.clone().with_material(Material { shininess: 120.5, ..material() });
             *thing = thing.clone().back(Material { shininess: 120.5, ..other_material() }).faces(Faces::Both);
             thing.shading = Some(shading);
         }
@@ -287,7 +286,8 @@ fn lights_that_cannot_reach_are_not_assigned() {
                     Lamp::spot(SpotLight { light: ranged(0.4, 30.0), cone: Cone::new(0.6) }, at, Vec3::Y)
                 }),
             ];
-            // The sphere around a floor in one piece holds these lights, and what is inside may shine anywhere.
+            // The bounding sphere of an undivided floor contains these lights, and lights inside it may reach any
+            // point.
             for (row, lamp) in &aside[..if divisions == 1 { 3 } else { 4 }] {
                 let mut more = scene.clone();
                 more.lamps.extend(places().map(lamp));
@@ -295,7 +295,7 @@ fn lights_that_cannot_reach_are_not_assigned() {
                 let report = stage.report();
                 let named = format!("{row}, {} patches, {shading:?}", report.patches);
                 assert_eq!((report.lights, report.lights_assigned), (24, assigned), "{named}");
-                // Lights out of range are hardly looked at either, but by a floor in one piece: boxes hold the spheres
+                // Few lights out of range are evaluated, except for an undivided floor: boxes contain the spheres
                 // around patches, which some of these lights reach.
                 if *row == "lights out of range" && divisions > 1 {
                     assert!(report.light_pairs < pairs + pairs / 8, "{named}: {} of {pairs}", report.light_pairs);

@@ -1,4 +1,4 @@
-//! Images on objects: what they do is what the oracle says, and what does not have them pays nothing for them.
+//! Images on objects match the oracle, and objects without them do not pay for them.
 
 use crate::render::compare::{FLOAT, Failures, judge};
 use crate::render::conformance::maps::{SHAPED, map};
@@ -24,7 +24,7 @@ fn scene(shading: Shading, map: Option<Map>) -> Scene {
 }
 
 #[test]
-fn a_map_on_a_mesh_without_coordinates_changes_no_bit_and_costs_no_byte() {
+fn a_map_without_coordinates_changes_and_costs_nothing() {
     for shading in SHADINGS {
         let drawn = [None, Some(map(Sampling::default(), UvTransform::default()))].map(|map| {
             let mut stage = Stage::new(64, 48);
@@ -58,7 +58,7 @@ fn an_image_of_one_color_is_another_material() {
 }
 
 #[test]
-fn a_picture_of_another_filter_place_or_image_is_found_out() {
+fn another_filter_placement_or_image_is_found() {
     let mut stage = Stage::new(64, 48);
     let right = map(Sampling::default(), UvTransform { scale: [3.0, 3.0], ..UvTransform::default() });
     let moved = UvTransform { offset: [0.05, 0.0], ..right.transform };
@@ -76,10 +76,10 @@ fn a_picture_of_another_filter_place_or_image_is_found_out() {
     }
 }
 
-/// Nothing is drawn of a ball around the camera, so that no pipeline reads its image, or solid; what is drawn after it
-/// reads the other.
+/// A ball around the camera is culled, so that no pipeline reads its image, or solid; the object after it reads the
+/// other.
 #[test]
-fn what_comes_after_something_textured_out_of_sight_is_drawn() {
+fn objects_after_a_culled_textured_one_are_drawn() {
     let (mut stage, mut failures) = (Stage::new(64, 48), Failures::default());
     let image = || vec![(MapKind::Color, map(Sampling::default(), UvTransform::default()))];
     for shading in SHADINGS {
@@ -97,7 +97,7 @@ fn what_comes_after_something_textured_out_of_sight_is_drawn() {
 }
 
 #[test]
-fn an_image_that_is_not_there_is_drawn_as_a_checker() {
+fn a_missing_image_is_drawn_as_a_checker() {
     let mut stage = Stage::new(64, 48);
     let things = stage.set(&scene(Shading::Phong, None));
     stage.world().entity_mut(things[0]).insert(Maps::new(MapKind::Color, Handle::<Texture>::default()));
@@ -117,7 +117,7 @@ fn coordinates_that_are_no_numbers_are_refused_by_name() {
 }
 
 #[test]
-fn an_uncut_picture_of_a_mask_is_found_out() {
+fn a_mask_that_cuts_nothing_is_found() {
     let mut stage = Stage::new(64, 48);
     for shading in SHADINGS {
         let holes = TexelImage::from_fn(8, 8, |x, y| [1.0, 1.0, 1.0, ((x + y) % 2) as f32]).expect("a small image");
@@ -142,9 +142,9 @@ fn wave(u: f32, v: f32) -> f32 {
 
 #[test]
 fn a_displaced_mesh_converges_to_the_bumped_plane() {
-    // Seen from far above, so that what is raised hardly moves; within the rim, where normals are one-sided.
+    // From far above, so that raised points hardly move; within the rim, where normals are one-sided.
     let seen = |mesh: Mesh, maps: Vec<(MapKind, Map)>| {
-        let thing = Thing { maps, ..Thing::new(mesh) }.of(Material::matte(LinearRgba::WHITE));
+        let thing = Thing { maps, ..Thing::new(mesh) }.with_material(Material::matte(LinearRgba::WHITE));
         let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::white() };
         let mut scene = Scene::in_eye_space().with(thing).lit(Lamp::directional(light, Vec3::new(-0.6, -1.0, -0.4)));
         scene.eye = Transform::from_xyz(0.0, 60.0, 0.0).looking_at(Vec3::ZERO, Vec3::NEG_Z);
@@ -178,7 +178,7 @@ fn a_displaced_mesh_converges_to_the_bumped_plane() {
 }
 
 #[test]
-fn normals_of_an_image_lean_as_its_coordinates_run_also_where_they_are_mirrored() {
+fn mapped_normals_follow_mirrored_coordinates() {
     // Two squares, on which u grows away from the middle, and v downward.
     let columns = [-1.0_f32, 0.0, 1.0];
     let positions: Vec<Vec3> =
@@ -193,7 +193,9 @@ fn normals_of_an_image_lean_as_its_coordinates_run_also_where_they_are_mirrored(
         for (scale, mirror) in [(1.0, 1.0), (1.0, -1.0), (0.5, 1.0)] {
             let map = Map { amount: scale, ..Map::new(even.clone()) };
             let mut thing = Thing { maps: vec![(MapKind::Normal, map)], ..Thing::new(mesh.clone()) };
-            thing = thing.of(Material::matte(LinearRgba::WHITE)).at(Transform::from_scale(Vec3::new(mirror, 1.0, 1.0)));
+            thing = thing
+                .with_material(Material::matte(LinearRgba::WHITE))
+                .at(Transform::from_scale(Vec3::new(mirror, 1.0, 1.0)));
             let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::white() };
             let mut scene = Scene::seen_from(Vec3::new(0.0, 0.0, 3.0), Vec3::ZERO).with(thing);
             scene = scene.lit(Lamp::directional(light, -to_light));
@@ -237,7 +239,7 @@ fn bumpy(far_normals: FarNormals, reflectance: Reflectance, along: f32) -> Scene
     })
 }
 
-/// The same of furrows, the heights of which change along `across` alone, by columns and rows.
+/// The same with furrows, whose heights change along `across` alone, by columns and rows.
 fn furrowed(far_normals: FarNormals, reflectance: Reflectance, across: [f64; 2]) -> Scene {
     let [columns, rows] = across;
     bumpy_by(far_normals, reflectance, 0.0, |x, y| {
@@ -247,7 +249,7 @@ fn furrowed(far_normals: FarNormals, reflectance: Reflectance, across: [f64; 2])
     })
 }
 
-/// The same of heights by column and row of 512.
+/// The same with heights by column and row of 512.
 fn bumpy_by(far_normals: FarNormals, reflectance: Reflectance, along: f32, wave: impl Fn(f64, f64) -> f64) -> Scene {
     const SIDE: u32 = 512;
     let wave = |x: u32, y: u32| wave(x.into(), y.into());
@@ -262,7 +264,8 @@ fn bumpy_by(far_normals: FarNormals, reflectance: Reflectance, along: f32, wave:
         ..Material::default()
     };
     let moved = Transform::from_xyz(along * 4.0 / 64.0, 0.0, 0.0);
-    let thing = Thing { maps, ..Thing::new(Mesh::from(Plane { size: 4.0, divisions: 1 })) }.of(shiny).at(moved);
+    let thing =
+        Thing { maps, ..Thing::new(Mesh::from(Plane { size: 4.0, divisions: 1 })) }.with_material(shiny).at(moved);
     let light = DirectionalLight { ambient: LinearRgba::BLACK, ..DirectionalLight::white() };
     let mut scene = Scene::in_eye_space().with(thing).lit(Lamp::directional(light, Vec3::new(-0.15, -1.0, -0.1)));
     scene.eye = Transform::from_xyz(0.0, 6.0, 0.0).looking_at(Vec3::ZERO, Vec3::NEG_Z);
@@ -321,10 +324,9 @@ fn highlights_of_furrows_are_streaks_by_moments() {
 }
 
 #[test]
-fn highlights_of_a_moving_bumpy_plane_shimmer_less_by_toksvig_and_lean() {
+fn toksvig_and_lean_reduce_shimmer_of_moving_bumps() {
     let mut stage = Stage::new(64, 48);
-    // Moved by a whole pixel and more, in thirds; what a pixel shows of a plane without an end should stay about the
-    // same.
+    // Moved by a whole pixel and more, in thirds; the pixels of an infinite plane should stay about the same.
     let mut shimmer = |far: FarNormals| {
         let frames: Vec<Vec<f64>> =
             (0..10).map(|k| reduced(&stage.draw(&bumpy(far, Reflectance::BlinnPhong, k as f32 / 3.0)), 1)).collect();
@@ -337,7 +339,7 @@ fn highlights_of_a_moving_bumpy_plane_shimmer_less_by_toksvig_and_lean() {
 }
 
 #[test]
-fn far_normals_cost_nothing_where_they_do_nothing_and_are_found_out_where_they_are_left_out() {
+fn far_normals_cost_nothing_unused_and_are_missed_if_absent() {
     let mut stage = Stage::new(64, 48);
     let drawn = |stage: &mut Stage, kind: MapKind, far_normals: FarNormals| {
         let mut scene = scene(Shading::Phong, None);
@@ -355,15 +357,15 @@ fn far_normals_cost_nothing_where_they_do_nothing_and_are_found_out_where_they_a
     }
 }
 
-/// Two images of the size of one in place of it, where moments are read; on the CPU nothing is sent.
+/// Two images replace one of the same size where moments are read; on the CPU nothing is uploaded.
 #[test]
-fn moments_are_sent_for_those_who_read_them() {
+fn moments_are_uploaded_only_for_lean() {
     let mut stage = Stage::new(64, 48);
     let mut bytes = |far: FarNormals| {
         stage.set(&bumpy(far, Reflectance::BlinnPhong, 0.0));
         stage.frame().bytes_uploaded
     };
-    // The first frame sends what all share.
+    // The first frame uploads the shared data.
     bytes(FarNormals::Mean);
     let [mean, toksvig, lean] = FarNormals::ALL.map(&mut bytes);
     let image: u64 = (0..10).map(|level| 16 * (512_u64 >> level).pow(2)).sum();
@@ -373,7 +375,7 @@ fn moments_are_sent_for_those_who_read_them() {
 }
 
 #[test]
-fn a_picture_by_another_filter_of_the_footprints_shape_is_found_out() {
+fn another_footprint_filter_is_found() {
     let mut stage = Stage::new(64, 48);
     let with = |levels| {
         let sampling = Sampling { levels, ..Sampling::default() };
@@ -385,7 +387,7 @@ fn a_picture_by_another_filter_of_the_footprints_shape_is_found_out() {
         stage.set(&with(right));
         stage.frame();
         for (drawn, picture) in &pictures {
-            // Also by what a grid of 1/16 pixel is allowed in the conformance suite.
+            // Also with the allowance for a grid of 1/16 pixel in the conformance suite.
             let (verdict, _) = judge(&mut stage, picture, FLOAT.within(2.0).until_wrong());
             // Where no footprint is longer than 8 to 1, both are all probes of the longest.
             let more = [LevelFilter::Anisotropic8, LevelFilter::Anisotropic16];
@@ -395,8 +397,8 @@ fn a_picture_by_another_filter_of_the_footprints_shape_is_found_out() {
     }
 }
 
-/// A table of sums is kept per image and form: an object's other filter does not get it, and where one did it would be
-/// found. Squares and not spheres: small triangles on a grid of 1/16 pixel are seen by other footprints.
+/// A table of sums is cached per image and form: an object with another filter does not get it; if it did, this test
+/// would fail. Squares and not spheres: small triangles on a grid of 1/16 pixel have other footprints.
 #[test]
 fn one_image_is_drawn_by_each_filter_at_once_as_by_itself() {
     let mut stage = Stage::new(64, 48);
@@ -430,7 +432,7 @@ fn one_image_is_drawn_by_each_filter_at_once_as_by_itself() {
     }
 }
 
-/// Means of a few texels far from where the sums begin: sums in f32 alone lose them
+/// Means of a few texels far from the origin of the sums: sums in f32 alone lose them
 /// (`sums_in_single_precision_are_too_coarse`).
 #[test]
 fn sums_of_a_large_image_tell_two_texels_apart() {
@@ -441,7 +443,8 @@ fn sums_of_a_large_image_tell_two_texels_apart() {
     let map = Map { sampling, transform, ..Map::new(image) };
     let thing = Thing { maps: vec![(MapKind::Color, map)], ..Thing::new(Plane { size: 2.0, divisions: 1 }) };
     let mut scene = Scene::seen_from(Vec3::new(0.0, 1.9, 0.4), Vec3::ZERO).ambient(1.0);
-    scene.things = vec![thing.of(Material { ambient: LinearRgba::WHITE, ..Material::matte(LinearRgba::WHITE) })];
+    scene.things =
+        vec![thing.with_material(Material { ambient: LinearRgba::WHITE, ..Material::matte(LinearRgba::WHITE) })];
     let mut stage = Stage::new(64, 48);
     stage.set(&scene);
     stage.frame();
@@ -451,7 +454,7 @@ fn sums_of_a_large_image_tell_two_texels_apart() {
     println!("{verdict}");
 }
 
-/// Sums of such texels are beyond all numbers of single precision, and the difference of two sums is no number.
+/// Sums of such texels overflow single precision, and the difference of two sums is NaN.
 #[test]
 fn the_largest_texels_end_in_a_picture() {
     let mut stage = Stage::new(64, 48);

@@ -1,4 +1,4 @@
-//! Which of surfaces at one place is seen, whatever else is in the scene.
+//! The visible one of coincident surfaces, whatever else is in the scene.
 
 use crate::render::compare::{FLOAT, Failures, assert_as_expected};
 use crate::render::scene::{Lamp, Scene, Thing, glowing, material, other_material, point_light, rotated};
@@ -8,7 +8,7 @@ use halfway::prelude::*;
 
 const SHADINGS: [Shading; 3] = [Shading::Flat, Shading::Gouraud, Shading::Phong];
 
-/// The near side was drawn first where a draw like it had been called before.
+/// The near side was once drawn first if an equal draw came before.
 #[test]
 fn a_far_side_comes_first_whatever_was_drawn_before() {
     let mut stage = Stage::new(40, 40);
@@ -29,13 +29,17 @@ fn a_far_side_comes_first_whatever_was_drawn_before() {
     }
 }
 
-/// Objects of one mesh at one place, with what is drawn first by its state before them.
+/// Coincident objects of one mesh, after objects that are drawn first because of their state.
 #[test]
 fn of_equal_opaque_objects_the_first_spawned_is_seen() {
     let mut stage = Stage::new(40, 40);
     let mut failures = Failures::default();
     let ball = |material, shading, faces| {
-        Thing::new(UvSphere::new(0.8, 24, 12)).at(rotated(0.3, 0.4, 0.5)).of(material).shaded(shading).faces(faces)
+        Thing::new(UvSphere::new(0.8, 24, 12))
+            .at(rotated(0.3, 0.4, 0.5))
+            .with_material(material)
+            .shaded(shading)
+            .faces(faces)
     };
     let brass = Material::BRASS;
     for (name, lights) in [("one light", 1), ("many lights", 12)] {

@@ -1,4 +1,4 @@
-//! Lists of many lights on objects with images: what is left out stays within the tolerance.
+//! Lists of many lights on objects with images: omitted light stays within the tolerance.
 
 use crate::render::random::between;
 use crate::render::scene::{Lamp, Map, Scene, Thing};
@@ -17,7 +17,8 @@ fn floor(maps: Vec<(MapKind, Map)>) -> Scene {
         shininess: 30.0,
         ..Material::default()
     };
-    let thing = Thing { maps, ..Thing::new(Plane { size: 4.0, divisions: 64 }) }.of(shiny).shaded(Shading::Phong);
+    let thing =
+        Thing { maps, ..Thing::new(Plane { size: 4.0, divisions: 64 }) }.with_material(shiny).shaded(Shading::Phong);
     let mut scene = Scene::seen_from(Vec3::new(0.0, 4.0, 0.5), Vec3::ZERO).with(thing);
     let mut random = Rng::with_seed(5);
     for number in 0..180 {
@@ -45,7 +46,7 @@ fn halves(left: f32, right: f32) -> Map {
     Map::new(TexelImage::from_fn(64, 64, texel).expect("a small image"))
 }
 
-/// Normals of waves so high.
+/// The normal map of waves of this height.
 fn waves(height: f32) -> Map {
     let heights = TexelImage::from_fn(64, 64, |x, y| {
         let of = |at: u32, turns: f32| (turns * std::f32::consts::TAU * at as f32 / 64.0).sin();
@@ -84,7 +85,7 @@ fn most_off(stage: &mut Stage, scene: &Scene, steps: f32) -> (f64, u64) {
 }
 
 #[test]
-fn what_is_left_out_of_objects_with_images_stays_within_the_tolerance() {
+fn textured_objects_stay_within_the_tolerance() {
     let mut stage = stage();
     let images = [
         ("bright", vec![(MapKind::Color, halves(0.9, 0.9)), (MapKind::Specular, halves(0.9, 0.9))]),
@@ -109,11 +110,11 @@ fn what_is_left_out_of_objects_with_images_stays_within_the_tolerance() {
             }
         }
     }
-    // Bounds that were half of these would leave out twice as much, which is found.
+    // Bounds half as large would leave out twice as much, which this test would find.
     assert!(largest > 0.6, "of the tolerance {largest} is spent");
 }
 
-/// Emission hides what is left out, but not where an image leaves nothing of it.
+/// Emission masks omitted light, but not where an image removes the emission.
 #[test]
 fn emission_that_an_image_leaves_nothing_of_hides_nothing() {
     let mut stage = stage();

@@ -1,4 +1,4 @@
-//! The list of passes: what the report says of each, and passes of an App's own.
+//! The list of passes: the report's row for each, and custom passes of an App.
 
 use crate::render::conformance::environment::around;
 use crate::render::scene::{Around, Scene, Thing, glowing, material};
@@ -14,7 +14,7 @@ fn passes(stage: &Stage) -> Vec<(Phase, u32, u64)> {
 
 /// A square three units away that fills the middle of the picture.
 fn square() -> Scene {
-    Scene::in_eye_space().with(Thing::square(Vec3::Z * -3.0, Vec3::Z, 1.0).of(glowing(1.0, 0.5, 0.25)))
+    Scene::in_eye_space().with(Thing::square(Vec3::Z * -3.0, Vec3::Z, 1.0).with_material(glowing(1.0, 0.5, 0.25)))
 }
 
 #[test]
@@ -23,7 +23,8 @@ fn the_report_has_a_row_for_each_pass_that_draws() {
     let mut scene = Scene::in_eye_space();
     stage.draw_bytes(&scene);
     assert_eq!(passes(&stage), []);
-    scene = scene.with(Thing::new(Cuboid::default()).at(Transform::from_xyz(-1.0, 0.0, -5.0)).of(material()));
+    scene =
+        scene.with(Thing::new(Cuboid::default()).at(Transform::from_xyz(-1.0, 0.0, -5.0)).with_material(material()));
     stage.draw_bytes(&scene);
     assert_eq!(passes(&stage), [(Phase::Opaque, 1, 12)]);
     scene = scene.with(Thing::new(UvSphere::new(0.5, 8, 4)).at(Transform::from_xyz(1.0, 0.0, -5.0)).blended(0.5));
@@ -184,7 +185,8 @@ fn an_app_s_pass_draws_over_the_scene_by_its_depth() {
 
 #[test]
 fn a_policy_acts_on_an_app_s_pass() {
-    let mut scene = Scene::in_eye_space().with(Thing::square(Vec3::Z * -3.0, Vec3::Z, 1.0).of(glowing(4.0, 2.0, 1.0)));
+    let mut scene =
+        Scene::in_eye_space().with(Thing::square(Vec3::Z * -3.0, Vec3::Z, 1.0).with_material(glowing(4.0, 2.0, 1.0)));
     scene.camera.intensity = Intensity::Renormalize { smoothing: 0.0 };
     let Some(mut stage) = veiled(&scene) else { return };
     stage.world().insert_resource(VeilAt(-5.0));

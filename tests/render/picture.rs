@@ -1,4 +1,4 @@
-//! The picture itself: encodings, background, clamping, samples, sizes, depth, what the camera sees.
+//! The picture itself: encodings, background, clamping, samples, sizes, depth, projection.
 
 use crate::render::compare::{FLOAT, Failures, SRGB, assert_as_expected, assert_identical, difference, judge};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, glowing, point_light};
@@ -10,7 +10,8 @@ use halfway::render::PendingPicture;
 
 /// A square that fills the picture with one grey.
 fn grey(value: f32) -> Scene {
-    Scene::in_eye_space().with(Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 9.0).of(glowing(value, value, value)))
+    Scene::in_eye_space()
+        .with(Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 9.0).with_material(glowing(value, value, value)))
 }
 
 #[test]
@@ -80,7 +81,7 @@ fn bytes_that_are_all_one_step_off_are_found() {
     }
 }
 
-/// Whether it lies in the middle between two bytes, give or take some of a step.
+/// Whether it lies in the middle between two bytes, within `give` of a step.
 fn raw_is_tie(intensity: f32, give: f32) -> bool {
     ((intensity * 255.0).fract() - 0.5).abs() < give
 }
@@ -140,7 +141,7 @@ fn four_samples_smooth_edges_and_leave_the_inside_as_it_is() {
         for (x, y, pixel) in four.enumerate_pixels() {
             let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
             let hit = corners
-                .map(|(dx, dy)| oracle.seen(f64::from(x + dx), f64::from(y + dy)).nearest.map(|hit| hit.triangle));
+                .map(|(dx, dy)| oracle.probe(f64::from(x + dx), f64::from(y + dy)).nearest.map(|hit| hit.triangle));
             let single = one.get_pixel(x, y).0;
             if hit.iter().all(|triangle| *triangle == hit[0]) {
                 inside += usize::from(hit[0].is_some());
@@ -204,9 +205,9 @@ fn pictures_of_every_size_are_read_back_whole() {
 fn right_is_right_and_up_is_the_first_row() {
     let mut stage = Stage::new(32, 24);
     let scene = Scene::in_eye_space()
-        .with(Thing::square(Vec3::new(0.5, 0.3, -2.0), Vec3::Z, 0.2).of(glowing(1.0, 0.0, 0.0)))
-        .with(Thing::square(Vec3::new(-0.5, 0.3, -2.0), Vec3::Z, 0.2).of(glowing(0.0, 1.0, 0.0)))
-        .with(Thing::square(Vec3::new(0.5, -0.3, -2.0), Vec3::Z, 0.2).of(glowing(0.0, 0.0, 1.0)));
+        .with(Thing::square(Vec3::new(0.5, 0.3, -2.0), Vec3::Z, 0.2).with_material(glowing(1.0, 0.0, 0.0)))
+        .with(Thing::square(Vec3::new(-0.5, 0.3, -2.0), Vec3::Z, 0.2).with_material(glowing(0.0, 1.0, 0.0)))
+        .with(Thing::square(Vec3::new(0.5, -0.3, -2.0), Vec3::Z, 0.2).with_material(glowing(0.0, 0.0, 1.0)));
     let picture = stage.draw(&scene);
     let oracle = stage.oracle();
     for (at, expected) in [
@@ -259,7 +260,7 @@ fn the_cameras_scale_does_nothing() {
 fn a_millimetre_at_a_kilometre_is_in_the_right_order() {
     let mut stage = Stage::new(8, 8);
     let plane = |distance: f32, red: f32, blue: f32| {
-        Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 2000.0).of(glowing(red, 0.0, blue))
+        Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 2000.0).with_material(glowing(red, 0.0, blue))
     };
     for distance in [10.0, 100.0, 1000.0] {
         let near = plane(distance, 1.0, 0.0);
@@ -280,8 +281,9 @@ fn the_near_plane_cuts_and_there_is_no_far_one() {
     for near in [1e-3, 0.1, 5.0] {
         for (factor, shown) in [(0.5, false), (0.999, false), (1.001, true), (1e3, true), (1e9, true), (1e15, true)] {
             let distance = near * factor;
-            let mut scene = Scene::in_eye_space()
-                .with(Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 9.0 * distance).of(glowing(1.0, 1.0, 1.0)));
+            let mut scene = Scene::in_eye_space().with(
+                Thing::square(Vec3::NEG_Z * distance, Vec3::Z, 9.0 * distance).with_material(glowing(1.0, 1.0, 1.0)),
+            );
             scene.camera.projection = scene.camera.projection.with_near(near);
             let seen = stage.draw(&scene).get_pixel(4, 4).0[0] > 0.5;
             assert_eq!(seen, shown, "near {near}, at {distance:e}");
@@ -293,9 +295,17 @@ fn the_near_plane_cuts_and_there_is_no_far_one() {
 fn intersecting_objects_hide_each_other_pixel_by_pixel() {
     let mut stage = Stage::new(48, 48);
     let scene = Scene::seen_from(Vec3::new(0.5, 0.8, 3.0), Vec3::ZERO)
-        .with(Thing::square(Vec3::ZERO, Vec3::new(0.5, 0.0, 1.0), 2.5).of(glowing(0.9, 0.1, 0.0)).faces(Faces::Both))
-        .with(Thing::square(Vec3::ZERO, Vec3::new(-0.6, 0.3, 1.0), 2.5).of(glowing(0.1, 0.9, 0.0)).faces(Faces::Both))
-        .with(Thing::new(UvSphere::new(0.7, 16, 8)).of(glowing(0.2, 0.3, 0.9)));
+        .with(
+            Thing::square(Vec3::ZERO, Vec3::new(0.5, 0.0, 1.0), 2.5)
+                .with_material(glowing(0.9, 0.1, 0.0))
+                .faces(Faces::Both),
+        )
+        .with(
+            Thing::square(Vec3::ZERO, Vec3::new(-0.6, 0.3, 1.0), 2.5)
+                .with_material(glowing(0.1, 0.9, 0.0))
+                .faces(Faces::Both),
+        )
+        .with(Thing::new(UvSphere::new(0.7, 16, 8)).with_material(glowing(0.2, 0.3, 0.9)));
     assert_as_expected("two squares through a sphere", &mut stage, &scene);
 }
 

@@ -88,7 +88,7 @@ fn thing(choice: &Choice) -> Thing {
     let scale = Vec3::new(if mirrored == 1 { -2.0 } else { 2.0 }, 2.0, 1.0);
     let mut thing = Thing::new(mesh)
         .at(Transform::from_xyz(0.0, 0.0, -3.0).with_rotation(Quat::from_rotation_y(turn)).with_scale(scale))
-        .of(material)
+        .with_material(material)
         .back(Material { specular: material.specular, shininess: material.shininess, ..other_material() })
         .faces(faces)
         .reflecting([Reflectance::Phong, Reflectance::BlinnPhong, Reflectance::BlinnPhongMatched][reflectance]);
@@ -159,7 +159,7 @@ fn every_three_choices_that_decide_a_pipeline_build_and_draw() {
 }
 
 #[test]
-fn a_bounded_number_of_pipelines_draws_whatever_comes_one_after_the_other() {
+fn a_bounded_cache_of_pipelines_draws_every_shading() {
     // 3 shadings, 2 reflectances, 2 viewers and 17 exponents of their own: 204 keys beside the other scenes'.
     let mut stage = Stage::new(12, 12);
     let mut failures = Failures::default();
@@ -176,7 +176,7 @@ fn a_bounded_number_of_pipelines_draws_whatever_comes_one_after_the_other() {
                 .ambient(0.2)
                 .with(
                     Thing::square(Vec3::NEG_Z * 2.0, Vec3::Z, 3.0)
-                        .of(Material { shininess, ..material() })
+                        .with_material(Material { shininess, ..material() })
                         .shaded(shading)
                         .reflecting(reflectance),
                 )
@@ -189,8 +189,8 @@ fn a_bounded_number_of_pipelines_draws_whatever_comes_one_after_the_other() {
         }
     }
     failures.finish();
-    // Each has had one of its own: the first 128 at once, the others in their second frame, as the oldest made room.
-    // Their first was drawn by a generic one for each of 12 stages, reflectances and viewers.
+    // Each got a specialised one: the first 128 at once, the others in their second frame, after the oldest were
+    // evicted. Generic ones, for each of 12 stages, reflectances and viewers, drew their first frames.
     assert_eq!((stage.report().pipelines, stage.report().pipelines_live), (204 + 12, 128 + 12));
 }
 
@@ -200,7 +200,7 @@ fn squares(numbers: Range<u16>) -> Scene {
         let (x, y) = (f32::from(i % 16) - 7.5, f32::from(i / 16) - 4.5);
         let shininess = 2_f32.powi(i32::from(i / 12));
         Thing::square(Vec3::new(x, y, -20.0), Vec3::Z, 0.9)
-            .of(Material { shininess, ..material() })
+            .with_material(Material { shininess, ..material() })
             .shaded([Shading::Flat, Shading::Gouraud, Shading::Phong][usize::from(i % 3)])
             .reflecting([Reflectance::Phong, Reflectance::BlinnPhong][usize::from(i / 3 % 2)])
             .faces([Faces::Front, Faces::Both][usize::from(i / 6 % 2)])
@@ -227,8 +227,8 @@ fn a_frame_that_needs_more_than_the_bound_builds_them_once() {
         failures.finish();
         // The last 22 are of all 12 kinds that generic ones are for.
         assert_eq!((stage.report().pipelines, stage.report().pipelines_live), (128 + 12, 128 + 12), "{row}");
-        // Those of the other kinds, of which all are there, are foreseen too. Of 10 kinds there are two squares, whose
-        // materials are looked up: in the first frame only where it waits for the pipelines for that.
+        // Generic ones of the other kinds are built in advance too. 10 kinds have two squares, whose materials are
+        // looked up: in the first frame only if it waits for these pipelines.
         stage.compile();
         let looking_up = if compile == Compile::Beside { 10 } else { 0 };
         for _ in 0..2 * KEPT {
@@ -240,7 +240,7 @@ fn a_frame_that_needs_more_than_the_bound_builds_them_once() {
 }
 
 #[test]
-fn what_is_not_drawn_any_more_makes_room_in_time() {
+fn unused_pipelines_are_evicted_in_time() {
     let mut stage = Stage::new(96, 96);
     stage.draw(&squares(0..MOST));
     let mut failures = Failures::default();

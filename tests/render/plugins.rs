@@ -1,4 +1,4 @@
-//! The renderer in Apps of other shapes than the facade's.
+//! The renderer in Apps built differently from the facade's.
 
 use crate::render::compare::assert_identical;
 use crate::render::scene::{Lamp, Scene, Thing, point_light};
@@ -109,7 +109,7 @@ fn plugins_may_come_in_any_order_before_and_after_the_scene() {
         app.finish();
         app.cleanup();
         assert_identical(&row, &expected, &float(&mut app));
-        adapter = adapter.or_else(|| Adapter::of(app.world()));
+        adapter = adapter.or_else(|| Adapter::from_world(app.world()));
 
         // The assets that the systems hold are those that the renderer watches.
         let world = app.world_mut();
@@ -226,7 +226,7 @@ fn a_finished_app_draws_the_same() {
     assert_identical("finished", &expected(), &float(&mut app));
 }
 
-/// A schedule that the App knows nothing of.
+/// A schedule that the App does not run by itself.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 struct Paint;
 

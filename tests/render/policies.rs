@@ -1,5 +1,4 @@
-//! Intensity policies that act on the finished picture: what they cost, what they keep from frame to frame, and what
-//! they leave alone.
+//! Intensity policies that act on the finished picture: their cost, their state between frames, and their scope.
 
 use crate::render::compare::{assert_identical, brightest};
 use crate::render::conformance::policies::POLICIES;
@@ -8,10 +7,10 @@ use crate::render::stage::Stage;
 use halfway::lighting::equations::divisor;
 use halfway::prelude::*;
 
-/// A square that glows so, before a background that does not.
+/// A square of this emission before a black background.
 fn glow(brightness: f32) -> Scene {
-    let mut scene =
-        Scene::in_eye_space().with(Thing::square(Vec3::Z * -3.0, Vec3::Z, 1.0).of(glowing(brightness, 0.5, 0.25)));
+    let mut scene = Scene::in_eye_space()
+        .with(Thing::square(Vec3::Z * -3.0, Vec3::Z, 1.0).with_material(glowing(brightness, 0.5, 0.25)));
     scene.camera.background = LinearRgba::rgb(0.5, 0.5, 0.5);
     scene
 }
@@ -89,7 +88,7 @@ fn the_largest_channel_is_found_wherever_it_is() {
             let center = Vec3::new(place(at[0], width) * half * aspect, -place(at[1], height) * half, -1.0);
             let size = half / height as f32;
             let mut scene =
-                Scene::in_eye_space().with(Thing::square(center, Vec3::Z, size).of(glowing(0.25, 5.0, 0.5)));
+                Scene::in_eye_space().with(Thing::square(center, Vec3::Z, size).with_material(glowing(0.25, 5.0, 0.5)));
             scene.camera.background = LinearRgba::rgb(0.5, 0.25, 2.0);
             scene.camera.intensity = Intensity::Renormalize { smoothing: 0.0 };
             let picture = stage.draw(&scene);
@@ -116,7 +115,7 @@ fn the_divisor_follows_as_its_equation_says() {
         // A few roundings of f32 a frame.
         assert!((found / expected - 1.0).abs() < 1e-5, "frame {frame}: {found} for {expected}");
     }
-    // Another policy meanwhile, and there is no frame before.
+    // Another policy in between resets the divisor.
     set_policy(&mut stage, Intensity::Aces);
     stage.float();
     set_policy(&mut stage, Intensity::Renormalize { smoothing });
@@ -125,9 +124,9 @@ fn the_divisor_follows_as_its_equation_says() {
     assert!((found - 3.0).abs() < 1e-5, "{found}");
 }
 
-/// A tolerance is one of what is written: the same scene keeps to it under every policy.
+/// A tolerance applies to the written picture: the same scene keeps to it under every policy.
 #[test]
-fn a_tolerance_holds_for_what_a_policy_makes_of_the_picture() {
+fn a_tolerance_holds_after_the_intensity_policy() {
     let mut stage = Stage::new(64, 48);
     for (name, policy) in POLICIES {
         let ball = Thing::new(UvSphere::new(1.0, 64, 32)).shaded(Shading::Phong);

@@ -1,5 +1,5 @@
-//! Random numbers over sixteen decades in scenes of one shape: never NaN, infinite or negative, and what the oracle
-//! says within what rounding explains. Numbers alone make no pipelines, so that many scenes take few.
+//! Random numbers over sixteen decades in scenes of one shape: never NaN, infinite or negative, and equal to the oracle
+//! up to rounding. Numbers alone build no pipelines, so many scenes need few.
 
 use std::cell::RefCell;
 use std::f32::consts::{FRAC_PI_2, PI};
@@ -134,7 +134,8 @@ impl Numbers {
             y,
             z,
         ));
-        let thing = Thing::new(hemisphere(10, 6)).of(self.front).back(self.back).faces(Faces::Both).at(object);
+        let thing =
+            Thing::new(hemisphere(10, 6)).with_material(self.front).back(self.back).faces(Faces::Both).at(object);
         let mut scene = Scene::seen_from(Vec3::new(1.0, 2.0, 3.0) * self.size, Vec3::ZERO).ambient(0.1);
         scene.camera.projection = scene.camera.projection.with_near(0.1 * self.size);
         scene.camera.viewer = self.viewer;
@@ -184,7 +185,7 @@ fn run(
 }
 
 #[test]
-fn scenes_of_any_numbers_are_what_the_oracle_says() {
+fn scenes_of_any_numbers_match_the_oracle() {
     // Cones whose edges are not steeper than a picture shows, lights outside the object.
     let cone = (0.1f32..FRAC_PI_2, prop::option::of(0f32..0.9), 0f32..100.0)
         .prop_map(|(cutoff, share, exponent)| Cone { cutoff, inner: share.map(|share| share * cutoff), exponent })

@@ -1,4 +1,4 @@
-//! Four samples a pixel: what is interpolated is taken where the triangle is.
+//! Four samples a pixel: values are interpolated at a point inside the triangle.
 
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, point_light};
 use crate::render::stage::Stage;
@@ -26,7 +26,7 @@ fn no_intensity_is_negative_at_an_outline() {
     }
 }
 
-/// A fan around the z axis, of which the middle is turned away from what shines along −Z and the rim to it.
+/// A fan around the z axis whose middle faces away from a light along −Z and whose rim faces it.
 fn fan(sectors: u16) -> Mesh {
     let mut positions = vec![Vec3::ZERO];
     positions.extend((0..sectors).map(|i| {
@@ -44,7 +44,7 @@ fn fan(sectors: u16) -> Mesh {
 #[test]
 fn no_intensity_at_an_outline_is_above_that_of_the_vertices() {
     let mut stage = Stage::new(96, 96);
-    // White that is lit in full: 1 at the rim, 0 in the middle.
+    // A fully lit white: 1 at the rim, 0 in the middle.
     let black = LinearRgba::BLACK;
     let white = LinearRgba::WHITE;
     let chalk = Material { ambient: black, diffuse: white, specular: black, emission: black, ..Material::DEFAULT };
@@ -53,11 +53,11 @@ fn no_intensity_at_an_outline_is_above_that_of_the_vertices() {
         for faces in [Faces::Front, Faces::Both] {
             for (vertex, fragment) in [(Frequency::Vertex, Frequency::Vertex), (Frequency::Vertex, Frequency::Fragment)]
             {
-                let thing = Thing::new(fan(7)).of(chalk).faces(faces).terms(vertex, fragment);
+                let thing = Thing::new(fan(7)).with_material(chalk).faces(faces).terms(vertex, fragment);
                 let mut scene =
                     Scene::seen_from(Vec3::Z * 6.0, Vec3::ZERO).with(thing).lit(Lamp::directional(light, Vec3::NEG_Z));
                 scene.camera.samples = samples;
-                // Nor is what is behind brighter, or darker.
+                // The background is neither brighter nor darker.
                 scene.camera.background = white;
                 let picture = stage.draw(&scene);
                 let row = format!("{samples:?}, {faces:?} faces, {vertex:?} and {fragment:?}");

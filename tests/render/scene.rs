@@ -6,7 +6,7 @@ use halfway::prelude::*;
 use halfway::texture::environment::EnvironmentMap;
 use halfway::texture::{Channel, FarNormals, Sampling, TexelImage, UvSet, UvTransform};
 
-/// Everything that decides a picture, but for its size.
+/// Everything that decides a picture, except its size.
 #[derive(Clone)]
 pub(crate) struct Scene {
     pub(crate) camera: Camera,
@@ -20,7 +20,7 @@ pub(crate) struct Scene {
     pub(crate) environment: Option<Around>,
 }
 
-/// An environment by a light of each direction.
+/// An environment.
 #[derive(Clone)]
 pub(crate) struct Around {
     pub(crate) map: EnvironmentMap,
@@ -183,7 +183,7 @@ impl Thing {
         }
     }
 
-    /// A square of edge `size` about `center` whose front is turned along `normal`.
+    /// A square of edge `size` about `center` whose front faces along `normal`.
     pub(crate) fn square(center: Vec3, normal: Vec3, size: f32) -> Self {
         let rotation = Quat::from_rotation_arc(Vec3::Y, normal.normalize());
         Self::new(Plane { size, divisions: 1 }).at(Transform::from_translation(center).with_rotation(rotation))
@@ -204,7 +204,7 @@ impl Thing {
         self
     }
 
-    pub(crate) fn of(mut self, material: Material) -> Self {
+    pub(crate) fn with_material(mut self, material: Material) -> Self {
         self.material = material;
         self
     }

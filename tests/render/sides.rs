@@ -49,7 +49,7 @@ fn an_open_hemisphere_shows_its_sides_under_every_policy() {
 
 /// Also where a slope may show any color around.
 #[test]
-fn other_sides_of_an_open_hemisphere_are_found_out() {
+fn wrong_sides_of_an_open_hemisphere_are_found() {
     let wrongs: [fn(&mut Thing); 4] = [
         |bowl| bowl.faces = Some(Faces::Front),
         |bowl| bowl.faces = Some(Faces::Back),
@@ -82,7 +82,7 @@ fn a_square_shows_each_side_with_its_material_and_normal() {
                 let square = Thing::square(Vec3::ZERO, Vec3::Z, 4.0).shaded(shading).faces(faces);
                 let matte = |red, blue| Material::matte(LinearRgba::rgb(red, 0.0, blue));
                 let scene = Scene::seen_from(Vec3::Z * eye, Vec3::ZERO)
-                    .with(square.of(matte(0.8, 0.0)).back(matte(0.0, 0.6)))
+                    .with(square.with_material(matte(0.8, 0.0)).back(matte(0.0, 0.6)))
                     .lit(Lamp::directional(DirectionalLight::white(), Vec3::NEG_Z * eye));
                 let row = format!("{shading:?}, {faces:?} faces, seen from the {side}");
                 let centre = stage.draw(&scene).get_pixel(16, 16).0;
@@ -101,7 +101,7 @@ fn a_square_shows_each_side_with_its_material_and_normal() {
 }
 
 #[test]
-fn back_faces_without_a_material_of_their_own_take_the_front_one() {
+fn back_faces_default_to_the_front_material() {
     let mut stage = Stage::new(48, 48);
     for shading in SHADINGS {
         let mut scene = bowl();
@@ -119,7 +119,7 @@ fn unlit_sides_have_their_own_emission() {
     for shading in SHADINGS {
         for (eye, expected) in [(3.0, 0.25), (-3.0, 0.75)] {
             let square = Thing::square(Vec3::ZERO, Vec3::Z, 4.0).faces(Faces::Both).shaded(shading);
-            let square = square.of(glowing(0.25, 0.25, 0.25)).back(glowing(0.75, 0.75, 0.75));
+            let square = square.with_material(glowing(0.25, 0.25, 0.25)).back(glowing(0.75, 0.75, 0.75));
             let scene = Scene::seen_from(Vec3::Z * eye, Vec3::ZERO).with(square);
             let centre = stage.draw(&scene).get_pixel(4, 4).0;
             assert!((centre[0] - expected).abs() < 1e-7, "{shading:?} from z = {eye}: {centre:?}");

@@ -1,4 +1,4 @@
-//! Flat triangles seen edge-on, of which the rasteriser and the shader may not find the same side.
+//! Flat triangles seen edge-on, for which the rasteriser and the shader may disagree on the visible side.
 
 use std::f32::consts::TAU;
 
@@ -63,7 +63,7 @@ fn darker(stage: &mut Stage, seen: &Turning, faces: Faces, blend: bool) -> [usiz
     found
 }
 
-/// A triangle that the rasteriser shows, and of which n·p says that it is turned away, was black.
+/// A triangle that the rasteriser drew although n·p made it face away was once black.
 #[test]
 fn no_flat_pixel_is_darker_than_emission_and_ambient() {
     let mut stage = Stage::new(160, 120);

@@ -1,5 +1,4 @@
-//! Solids that objects are cut from: what they do is what the oracle says, what has none pays nothing, and nothing that
-//! is finer than a pixel is left of them.
+//! Solid textures match the oracle, objects without them do not pay for them, and detail finer than a pixel fades.
 
 use crate::render::compare::{FLOAT, judge};
 use crate::render::conformance::solids::solid;
@@ -21,12 +20,12 @@ fn scene(shading: Shading, solid: Option<SolidTexture>) -> Scene {
 }
 
 #[test]
-fn what_has_no_solid_pays_nothing_beside_what_has_one() {
+fn objects_without_a_solid_cost_no_more_beside_one() {
     for shading in SHADINGS {
         let mut stage = Stage::new(64, 48);
         let alone = stage.draw(&scene(shading, None));
         let pipelines = stage.report().pipelines;
-        // Behind the other, and so never seen.
+        // Behind the other, and so invisible.
         let mut both = scene(shading, None);
         let behind = Thing { solid: Some(solid(SolidKind::Marble)), ..Thing::new(UvSphere::new(0.1, 6, 3)) };
         both.things.push(behind.at(Transform::from_xyz(-0.2, -0.5, -1.5)));
@@ -56,7 +55,7 @@ fn a_solid_of_one_color_is_another_material() {
 }
 
 #[test]
-fn a_picture_of_another_solid_is_found_out() {
+fn a_picture_of_another_solid_is_found() {
     let mut stage = Stage::new(64, 48);
     for kind in SolidKind::ALL {
         let right = solid(kind);
@@ -103,7 +102,7 @@ fn numbers_that_cannot_be_used_are_refused_by_name() {
     }
 }
 
-/// Where places or the ways between them end, there is the mean of both colors, as of any solid seen from afar.
+/// Where positions or their derivatives overflow, the color is the mean of both, as for any solid seen from afar.
 #[test]
 fn a_solid_that_is_too_fine_for_numbers_has_its_mean() {
     let mut stage = Stage::new(64, 48);
@@ -137,7 +136,7 @@ fn a_solid_stays_with_its_object() {
     }
 }
 
-/// Each pixel's share of a picture that is `N` times as large along each side.
+/// The reference picture is this many times as large along each side.
 const N: u32 = 9;
 
 /// The mean over each block of N × N pixels, and the one in its middle.
@@ -169,7 +168,8 @@ fn a_checkered_floor_has_no_moire() {
     let solid = SolidTexture::new(SolidKind::Checker, [[0.0; 3], [1.0; 3]]).placed(place.to_cols_array_2d());
     let floor = Thing { solid: Some(solid), ..Thing::new(Plane { size: 400.0, divisions: 1 }) };
     let mut scene = Scene::seen_from(Vec3::new(0.0, 1.5, 0.0), Vec3::new(0.0, 0.9, -2.0)).ambient(1.0);
-    scene = scene.with(floor.of(Material { ambient: LinearRgba::WHITE, ..Material::matte(LinearRgba::BLACK) }));
+    scene =
+        scene.with(floor.with_material(Material { ambient: LinearRgba::WHITE, ..Material::matte(LinearRgba::BLACK) }));
     let mut stage = Stage::new(width, height);
     let picture = Image::from_float(&stage.draw(&scene));
     stage.target_size(N * width, N * height);

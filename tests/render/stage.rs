@@ -14,8 +14,8 @@ use std::time::Duration;
 /// Every mesh as it is, and lights left out within half a step.
 pub(crate) const FULL: Tolerance = Tolerance::steps(0.5);
 
-/// `bars` for bytes of hardware, which may take the next byte for the nearest one from 0.4 of a step to 0.6 (Direct3D's
-/// rules of conversion): a fifth of all values, and of a pixel's three each.
+/// `bars` for bytes of hardware, which may round to either byte from 0.4 of a step to 0.6 (Direct3D's conversion
+/// rules): a fifth of all values, in each of a pixel's three channels.
 pub(crate) fn of_hardware(bars: Bars) -> Bars {
     Bars { equal: bars.equal.min(0.5), ..bars }
 }
@@ -23,7 +23,7 @@ pub(crate) fn of_hardware(bars: Bars) -> Bars {
 /// An App with the facade's plugins and a headless target, on which scenes replace each other.
 pub(crate) struct Stage {
     pub(crate) app: App,
-    /// The roots of the scene that stands.
+    /// The root entities of the current scene.
     spawned: Vec<Entity>,
     /// Equal meshes share a handle, as they would in an App.
     meshes: Vec<(Mesh, Handle<Mesh>)>,
@@ -35,7 +35,7 @@ impl Stage {
         Self::drawn_by(choice(), width, height)
     }
 
-    /// The same, drawn by the CPU whatever the other tests are drawn by.
+    /// The same, always drawn by the CPU.
     pub(crate) fn on_the_cpu(width: u32, height: u32) -> Self {
         Self::drawn_by(AdapterChoice::cpu(), width, height)
     }
@@ -53,7 +53,7 @@ impl Stage {
         self.app.world_mut()
     }
 
-    /// Draws what stands until all pipelines that are asked for are built.
+    /// Draws the current scene until all requested pipelines are built.
     pub(crate) fn compile(&mut self) {
         self.wait_for(|report| report.pipelines_pending);
     }
@@ -84,7 +84,7 @@ impl Stage {
 
     /// The adapter that has drawn.
     pub(crate) fn adapter(&self) -> Adapter {
-        Adapter::of(self.app.world()).expect("a frame has been drawn")
+        Adapter::from_world(self.app.world()).expect("a frame has been drawn")
     }
 
     /// Whether the CPU has drawn, without a driver.
@@ -100,7 +100,7 @@ impl Stage {
         if self.is_on_cpu() { bits() } else { *BITS.get_or_init(bits) }
     }
 
-    /// `bars` for how the adapter rounds to bytes.
+    /// `bars` adjusted to the adapter's rounding to bytes.
     pub(crate) fn rounding(&self, bars: Bars) -> Bars {
         if self.is_hardware() { of_hardware(bars) } else { bars }
     }
@@ -118,7 +118,7 @@ impl Stage {
         self.app.world().resource::<FrameReport>()
     }
 
-    /// Replaces what stands by `scene`; returns its objects, in order.
+    /// Replaces the current scene by `scene`; returns its objects, in order.
     pub(crate) fn set(&mut self, scene: &Scene) -> Vec<Entity> {
         for entity in std::mem::take(&mut self.spawned) {
             // A test may have despawned it.
@@ -152,7 +152,7 @@ impl Stage {
         entity
     }
 
-    /// The objects that should be seen, since the last frame.
+    /// The oracle of the scene as of the last frame.
     pub(crate) fn oracle(&mut self) -> Oracle {
         let size = self.world().resource::<Headless>().size;
         Oracle::new(self.world(), size).unwrap_or_else(|error| panic!("{error}"))
@@ -253,7 +253,7 @@ impl Stage {
         self.report()
     }
 
-    /// Draws what stands into floating point; no error may be reported.
+    /// Draws the current scene into floating point; no error may be reported.
     pub(crate) fn float(&mut self) -> Rgba32FImage {
         self.pixels(Pixels::Float);
         match self.try_draw() {
@@ -263,7 +263,7 @@ impl Stage {
         }
     }
 
-    /// Draws what stands into 8 bits; no error may be reported.
+    /// Draws the current scene into 8 bits; no error may be reported.
     pub(crate) fn bytes(&mut self) -> RgbaImage {
         self.pixels(Pixels::Byte);
         match self.try_draw() {

@@ -1,4 +1,4 @@
-//! Terms shaded at different frequencies, and the pure cases that have names of their own.
+//! Terms shaded at different frequencies, and the pure cases: flat, Gouraud and Phong.
 
 use crate::render::compare::{FLOAT, Failures, assert_as_expected, assert_identical, difference};
 use crate::render::scene::{Lamp, Scene, Thing, directional_light, other_material, point_light};
@@ -24,7 +24,7 @@ fn coarse_sphere() -> Scene {
 }
 
 #[test]
-fn every_pair_of_frequencies_is_what_the_equations_say() {
+fn every_pair_of_frequencies_matches_the_equations() {
     let mut stage = Stage::new(48, 48);
     for diffuse in FREQUENCIES {
         for specular in FREQUENCIES {

@@ -1,5 +1,5 @@
-//! Where the time of a frame goes, by the renderer's own clocks. No test depends on how fast the machine is: times are
-//! compared with each other, with the test's own clock around them, or with what a system slept.
+//! The times of a frame, by the renderer's own clocks. No test depends on the machine's speed: times are compared with
+//! each other, with the test's own clock around them, or with the time that a system slept.
 
 use crate::render::compare::assert_identical;
 use crate::render::scene::{Lamp, Scene, Thing, directional_light};
@@ -39,7 +39,7 @@ fn a_frames_sets_take_no_longer_than_the_frame() {
         let newest = *times(&stage).newest();
         assert!(newest.total() <= whole, "frame {frame}: {:?} of {whole:?}", newest.total());
         // Encoding and submitting a pass takes more than a tick of any clock.
-        assert!(newest.of(RenderSet::Draw) > Duration::ZERO, "frame {frame}: {newest:?}");
+        assert!(newest.duration(RenderSet::Draw) > Duration::ZERO, "frame {frame}: {newest:?}");
         assert_eq!(newest.display(), Duration::ZERO, "there is no display");
     }
     assert!(times(&stage).smoothed().total() > Duration::ZERO);
@@ -59,7 +59,7 @@ fn with_a_nap_in(set: RenderSet) -> SetTimes {
 fn a_slow_system_counts_to_its_own_set() {
     for slow in RenderSet::ALL {
         let newest = with_a_nap_in(slow);
-        assert!(newest.of(slow) >= NAP, "{slow:?}: {newest:?}");
+        assert!(newest.duration(slow) >= NAP, "{slow:?}: {newest:?}");
     }
 }
 
@@ -148,7 +148,7 @@ fn frames_that_nobody_waits_for_are_timed_too() {
     for _ in 0..200 {
         stage.frame();
     }
-    // Whatever is still under way arrives with this one.
+    // Pending times arrive with this frame.
     stage.float();
     let errors = &stage.frame().errors;
     assert!(errors.is_empty(), "{errors:?}");

@@ -82,7 +82,7 @@ fn a_mirrored_sphere_looks_like_itself() {
 
 #[test]
 fn a_flattened_sphere_is_a_disc_that_faces_one_way() {
-    // Half of the sphere winds counter-clockwise on either side of the disc, whichever way rounding turns the
+    // Half of the sphere winds counter-clockwise on either side of the disc, whichever sign rounding gives the
     // determinant, which is 0.
     let turn = rotated(0.9, 0.4, 0.7);
     let rows: [(&str, Vec<Transform>); 7] = [
@@ -216,7 +216,7 @@ fn a_scene_far_from_the_origin_looks_like_one_at_it() {
 }
 
 #[test]
-fn a_scene_far_from_the_origin_does_not_jitter_as_the_camera_moves() {
+fn a_scene_far_from_the_origin_does_not_jitter() {
     // The camera and the light move by whole units, which f32 holds exactly at 10⁷; the picture must move as it does at
     // the origin, and a frame drawn again be the same.
     let frame = |origin: Vec3, step: f32, shading| {
@@ -246,7 +246,7 @@ fn a_scene_far_from_the_origin_does_not_jitter_as_the_camera_moves() {
 }
 
 #[test]
-fn lights_go_with_what_they_are_attached_to() {
+fn lights_in_a_hierarchy_move_with_their_parents() {
     let spot = SpotLight { light: point_light(), cone: Cone { cutoff: 0.6, inner: Some(0.3), exponent: 1.0 } };
     let beside = shining(Vec3::new(0.5, 1.8, 0.4), Vec3::new(-0.3, -1.0, -0.2));
     let kinds = [
@@ -271,7 +271,7 @@ fn lights_go_with_what_they_are_attached_to() {
 
 #[test]
 fn moving_the_camera_and_the_world_together_changes_nothing() {
-    // Shading is of relative places: the camera's turn must cancel. f32 transforms leave some 1e-6 of it.
+    // Shading depends on relative positions: the camera's rotation must cancel. f32 transforms leave some 1e-6 of it.
     let scene = |turn: Quat| {
         let moved = |t: Transform| Transform::from_rotation(turn) * t;
         let mut scene = around_origin().with(Thing::square(Vec3::ZERO, Vec3::new(0.1, 1.0, 0.4), 9.0));

@@ -27,7 +27,7 @@ fn lamps(at: Vec3, target: Vec3) -> [(&'static str, Lamp); 6] {
     ]
 }
 
-/// A plane seen obliquely and a sphere with analytic normals, each with where the lamp is and what it shines at.
+/// A plane seen obliquely and a sphere with analytic normals, each with the lamp's position and target.
 fn geometries() -> [(&'static str, Scene, [Vec3; 2]); 2] {
     let plane = Thing::new(Plane { size: 6.0, divisions: 5 });
     let turned = Transform::from_rotation(Quat::from_rotation_x(0.7)).with_translation(Vec3::new(0.1, -0.05, 0.0));
@@ -67,16 +67,16 @@ fn every_combination(shading: Shading) {
 }
 
 #[test]
-fn flat_is_what_the_equations_say_in_every_combination() {
+fn flat_matches_the_equations_in_every_combination() {
     every_combination(Shading::Flat);
 }
 
 #[test]
-fn gouraud_is_what_the_equations_say_in_every_combination() {
+fn gouraud_matches_the_equations_in_every_combination() {
     every_combination(Shading::Gouraud);
 }
 
 #[test]
-fn phong_is_what_the_equations_say_in_every_combination() {
+fn phong_matches_the_equations_in_every_combination() {
     every_combination(Shading::Phong);
 }

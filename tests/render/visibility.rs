@@ -16,8 +16,8 @@ fn scene() -> Scene {
     let spot = SpotLight { light: point_light(), cone: Cone { cutoff: 0.9, inner: Some(0.2), exponent: 1.0 } };
     Scene::seen_from(Vec3::new(0.4, 1.4, 3.2), Vec3::new(0.0, -0.1, 0.0))
         .ambient(0.15)
-        .with(sphere.of(material()))
-        .with(floor.of(other_material()))
+        .with(sphere.with_material(material()))
+        .with(floor.with_material(other_material()))
         .with(pane)
         .lit(Lamp::spot(spot, Vec3::Y * 2.0, Vec3::NEG_Y).on(On::Thing(0)))
         .lit(Lamp::point(point_light(), Vec3::new(1.2, 1.6, 1.8)))
@@ -26,7 +26,7 @@ fn scene() -> Scene {
 
 fn without(things: &[usize], lamps: &[usize]) -> Scene {
     let mut scene = scene();
-    // From the last one on, so that numbers hold; a lamp that is on a thing goes with it.
+    // In reverse, so that indices stay valid; a lamp on a thing is removed with it.
     for &lamp in lamps.iter().rev() {
         scene.lamps.remove(lamp);
     }
@@ -95,19 +95,19 @@ fn rows() -> Vec<(&'static str, Hide, Scene)> {
             },
             without(&[2], &[0, 1, 2]),
         ),
-        // It means nothing there.
+        // Visibility has no effect on the camera.
         ("the camera", |world, _| hide_first::<Camera>(world), scene()),
     ]
 }
 
 #[test]
-fn what_is_hidden_is_as_if_it_were_not_there() {
+fn hidden_entities_do_not_change_the_picture() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     let whole = stage.draw(&scene());
     let mut failures = Failures::default();
     for (name, hide, expected) in rows() {
         let things = stage.set(&scene());
-        // Seen before it is hidden, so that what earlier frames have left behind would show.
+        // Drawn once before it is hidden, so that leftovers of earlier frames would show.
         assert_identical(name, &whole, &stage.float());
         hide(stage.world(), &things);
         let (hidden, of_hidden) = (stage.float(), stage.report().clone());
@@ -132,7 +132,7 @@ fn what_is_hidden_is_as_if_it_were_not_there() {
 }
 
 #[test]
-fn what_is_hidden_is_not_checked() {
+fn hidden_entities_are_not_validated() {
     let rows: [(&str, Hide); 4] = [
         ("a transform that is no number", |world, things| {
             world.get_mut::<Transform>(things[1]).expect("it has one").translation.x = f32::NAN;
@@ -165,7 +165,7 @@ fn what_is_hidden_is_not_checked() {
 }
 
 #[test]
-fn what_is_hidden_is_not_computed() {
+fn hidden_entities_cost_no_computation() {
     let mut stage = Stage::new(8, 8);
     let things = stage.set(&scene());
     stage.frame();

@@ -99,7 +99,6 @@ impl<T: Send + Sync + 'static> Assets<T> {
     }
 
     /// All assets mutably, with their ids.
-    /// Removes assets without a handle. [`add_assets`] runs it before each update.
     pub fn iter_mut(&mut self) -> impl Iterator<Item = (AssetId<T>, &mut T)> {
         let numbered = self.slots.iter_mut().enumerate();
         numbered.filter_map(|(slot, Slot { generation, asset })| {
@@ -112,7 +111,7 @@ impl<T: Send + Sync + 'static> Assets<T> {
         (slot.generation == id.generation).then_some(&mut slot.asset)
     }
 
-    /// Removes what no handle stands for any more. [`add_assets`] has it run before each update.
+    /// Removes assets without a handle. [`add_assets`] runs it before each update.
     fn remove_unused(mut assets: ResMut<Self>) {
         let dropped = assets.dropped.take();
         if dropped.is_empty() {

@@ -48,11 +48,11 @@ impl Report {
         index.sections.push(MeasuredOver::section(&self.over));
         let failures = self.failures.iter().map(FailurePage::page).collect::<Result<Vec<_>, _>>()?;
         index.sections.push(Section {
-            title: "Where methods fail".to_owned(),
+            title: "Failure modes".to_owned(),
             text: vec![
                 "Each known failure has its own page: pictures, how large the error is, the cause, the remedy, and the test \
-                 that holds it. What methods lose is drawn by the reference renderer, what rounding loses by the adapters of \
-                 this report and by the CPU."
+                 that checks it. The reference renderer draws the errors of methods; the adapters of this report and the \
+                 CPU draw those of rounding."
                     .to_owned(),
             ],
             links: failures.iter().map(|page| (page.title.clone(), page.file.clone())).collect(),

@@ -74,7 +74,7 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
         (vec![fronts.page()], fronts)
     };
     if let Some(file) = &args.small_chart {
-        write_and_tell(file, &fronts.small_chart(&["sphere", "teapot", "scan"]))?;
+        write_and_report(file, &fronts.small_chart(&["sphere", "teapot", "scan"]))?;
     }
     write(args, &pages)
 }
@@ -82,10 +82,10 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
 /// Writes the pages with their files, and the tables of the first.
 fn write(args: &ChartArgs, pages: &[Page]) -> Result<(), Failure> {
     for (name, content) in pages.iter().flat_map(Page::files) {
-        write_and_tell(&args.output.join(name), &content)?;
+        write_and_report(&args.output.join(name), &content)?;
     }
     match (&args.tables, pages) {
-        (Some(file), [first, ..]) => write_and_tell(file, &first.markdown()),
+        (Some(file), [first, ..]) => write_and_report(file, &first.markdown()),
         _ => Ok(()),
     }
 }
@@ -168,7 +168,7 @@ fn adapters(names: &[String]) -> Result<Vec<ChartedAdapter>, Failure> {
     names.iter().map(open).collect()
 }
 
-fn write_and_tell(file: &Path, content: &str) -> Result<(), Failure> {
+fn write_and_report(file: &Path, content: &str) -> Result<(), Failure> {
     write_text(file, content)?;
     println!("{}", file.display());
     Ok(())

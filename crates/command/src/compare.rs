@@ -42,7 +42,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
     let encoding = if args.raw { Encoding::Raw } else { Encoding::Srgb };
     let mut actual = Decoded::read(&args.a, encoding)?;
     let mut expected = Decoded::read(&args.b, encoding)?;
-    tell_apart(&mut actual, &mut expected, args.background);
+    find_background(&mut actual, &mut expected, args.background);
     let named = |error| Failure::from(format!("{} and {}: {error}", args.a.display(), args.b.display()));
     let comparison = compare(&actual, &expected, encoding).map_err(named)?;
     let perceived = flip(&actual, &expected, encoding).map_err(named)?;
@@ -120,7 +120,7 @@ impl PictureRows for Decoded {
 }
 
 /// Finds the background of both pictures, where possible.
-fn tell_apart(a: &mut Decoded, b: &mut Decoded, background: Option<[f64; 3]>) {
+fn find_background(a: &mut Decoded, b: &mut Decoded, background: Option<[f64; 3]>) {
     if let Some(background) = background {
         let bytes = bytes_of(background, a.encoding);
         (a.background, b.background) = (Some(Background::AsBytes(bytes)), Some(Background::AsBytes(bytes)));

@@ -21,7 +21,7 @@ impl Failure {
     }
 
     /// A failure whose message was already printed.
-    pub(crate) fn said(code: u8) -> Self {
+    pub(crate) fn already_printed(code: u8) -> Self {
         Self { code, error: None }
     }
 }

@@ -101,7 +101,7 @@ fn restore_sigpipe() {
 }
 
 fn main() -> ExitCode {
-    // Errors of frames are printed by whoever draws them.
+    // The commands print errors of frames themselves.
     let filter = "warn,wgpu_hal=off,halfway_render::errors=off";
     env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(filter))
         .format(|line, record| writeln!(line, "{}: {}", record.level().as_str().to_lowercase(), record.args()))

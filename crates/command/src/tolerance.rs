@@ -24,7 +24,7 @@ impl ToleranceArgs {
     }
 }
 
-/// In a few words.
+/// A short description.
 #[cfg(feature = "measure")]
 pub(crate) fn describe(tolerance: Tolerance) -> String {
     let Tolerance { steps, pixels } = tolerance;

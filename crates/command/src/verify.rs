@@ -27,7 +27,7 @@ pub(crate) struct VerifyArgs {
     /// Judge this picture, a PNG or EXR of the scene's first moment, instead of the adapter's; its size is used
     #[arg(long, value_name = "FILE", conflicts_with_all = ["adapter", "tolerance"])]
     picture: Option<PathBuf>,
-    /// Exit with code 4 if a pixel of a picture of bytes differs by more steps of 1/255 from what it may show
+    /// Exit with code 4 if a pixel of a picture of bytes differs by more steps of 1/255 from every colour it may show
     #[arg(long, value_name = "STEPS", default_value_t = 1)]
     max: u8,
     /// Print JSON instead of lines

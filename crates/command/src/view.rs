@@ -22,6 +22,6 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     match app.run() {
         AppExit::Success => Ok(()),
         // The error was already printed.
-        AppExit::Error(code) => Err(Failure::said(code.get())),
+        AppExit::Error(code) => Err(Failure::already_printed(code.get())),
     }
 }

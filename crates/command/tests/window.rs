@@ -1,8 +1,8 @@
-//! The window as people meet it: it opens, shows the model, follows keys and size, and closes.
+//! The window from a user's view: it opens, shows the model, follows keys and size, and closes.
 //!
 //! It opens on the X display that `DISPLAY` names, or, where none is named, on a virtual screen (Xvfb) that the test
-//! starts. Where neither can be had, the tests fail; `cargo xtask test` sees to it that one can. The Wayland display of
-//! one test is a window on that.
+//! starts. Without either the tests fail; `cargo xtask test` provides one. The Wayland display of one test is a window
+//! on that.
 
 #![cfg(target_os = "linux")]
 
@@ -39,12 +39,12 @@ fn without_a_driver_the_cpu_draws_in_the_window() {
 #[test]
 fn opengl_draws_in_the_window_where_it_is_asked_for() {
     let mut program = view();
-    // Else a graphics card's driver may answer, under its own name.
+    // Otherwise a graphics card's driver may be found, under its own name.
     program.env("LIBGL_ALWAYS_SOFTWARE", "true").args(["--adapter", "gl:llvmpipe"]);
     follows_keys_and_size(program);
 }
 
-/// Has the program find no graphics driver.
+/// Hides all graphics drivers from the program.
 fn without_drivers(program: &mut Command) {
     for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES", "__EGL_VENDOR_LIBRARY_DIRS"] {
         program.env(variable, "/dev/null");
@@ -53,7 +53,7 @@ fn without_drivers(program: &mut Command) {
 
 // Of one scene and size the CPU makes the same bits everywhere; a window on X and one on Wayland are to show them.
 #[test]
-fn a_window_on_wayland_shows_what_one_on_x_does() {
+fn a_window_on_wayland_matches_one_on_x() {
     let screen = Screen::open();
     let program = || {
         let mut program = view();
@@ -102,11 +102,12 @@ fn follows_keys_and_size(program: Command) {
 }
 
 #[test]
-fn the_title_counts() {
+fn the_title_shows_the_counters() {
     let screen = Screen::open();
     let mut viewer = Viewer::run(&screen, view());
     viewer.shown("Phong, Blinn–Phong", None);
-    // The first title comes before there is a rate of frames, and tells of the frame that uploads everything.
+    // The first title comes before the frame rate is known, and shows the counters of the frame that uploads
+    // everything.
     let settled = |title: &String| title.contains(" fps · ") && title.contains(" · 0 B · ");
     let title = eventually("a title with frames a second and nothing uploaded", || viewer.title().filter(settled));
     let (names, counted) = title.split_once(" — ").unwrap_or_else(|| panic!("no counters: {title}"));
@@ -143,7 +144,7 @@ fn pipelines_come_in_beside_the_frames() {
     };
     // The first frame's, and generic ones for three shadings by two reflectances.
     settles(&viewer, 7, "Phong");
-    // One for each that is chosen and was not seen before.
+    // One for each shading that is chosen for the first time.
     viewer.press('1'.into());
     settles(&viewer, 8, "flat");
     viewer.press('2'.into());
@@ -174,7 +175,7 @@ fn a_window_whose_size_changes_without_end_keeps_drawing() {
     let screen = Screen::open();
     let mut viewer = Viewer::open(&screen);
     let before = viewer.shown("Phong, Blinn–Phong", None);
-    // As often as a frame is drawn and oftener, down to a pixel, and beyond what is seen of the screen.
+    // Sizes change as often as frames are drawn and more often, down to a pixel, and beyond the screen.
     for step in 0..300u32 {
         viewer.resize(1 + step * 37 % 900, 1 + step * 53 % 1500);
         if step % 3 == 0 {
@@ -216,7 +217,7 @@ fn a_window_manager_minimises_it_and_fills_the_screen_with_it() {
     let screen = Screen::open();
     let _manager = Manager::start(&screen);
     let mut viewer = Viewer::open(&screen);
-    // Within the screen, frame and all, so that all of it can be looked at, and as wide for its height as the screen.
+    // Within the screen, including the frame, so that all of it can be read, and with the screen's aspect ratio.
     viewer.take_size(500, 400);
     let before = viewer.shown("Phong, Blinn–Phong", None);
     viewer.ask_manager("WM_CHANGE_STATE", [ICONIC, 0, 0, 0, 0]);
@@ -251,13 +252,13 @@ fn nothing_is_drawn_while_nothing_can_be_seen() {
         sleep(4 * BETWEEN_LOOKS);
         (viewer.cpu_ticks() == before).then_some(())
     });
-    // It is taken in when the window is seen again.
+    // The key takes effect when the window is visible again.
     viewer.press('1'.into());
     sleep(4 * BETWEEN_LOOKS);
     assert!(viewer.title().is_some_and(|title| title.ends_with(" · Phong, Blinn–Phong")), "the App went on");
     screen.destroy(cover);
     let flat = viewer.shown("flat, Blinn–Phong", Some(&phong));
-    // Without its window on the screen at all, and back.
+    // The window is unmapped and mapped again.
     for _ in 0..3 {
         viewer.set_mapped(false);
         sleep(BETWEEN_LOOKS);
@@ -280,7 +281,7 @@ fn escape_closes() {
 }
 
 #[test]
-fn without_a_display_it_says_so() {
+fn a_missing_display_is_an_error() {
     let output = view().env_remove("DISPLAY").output().expect("the command starts");
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!((output.status.code(), said.lines().count()), (Some(3), 1), "{said}");
@@ -288,7 +289,7 @@ fn without_a_display_it_says_so() {
 }
 
 #[test]
-fn without_the_adapter_that_is_asked_for_it_says_so() {
+fn a_missing_adapter_is_an_error() {
     let screen = Screen::open();
     for (name, has_drivers) in [("nothing", true), ("gpu", false)] {
         let mut program = view();
@@ -299,7 +300,7 @@ fn without_the_adapter_that_is_asked_for_it_says_so() {
         let output = program.args(["--adapter", name]).env("DISPLAY", &screen.name).output();
         let output = output.expect("the command starts");
         let said = String::from_utf8_lossy(&output.stderr);
-        // The adapters that there are follow, a line each.
+        // The available adapters follow, a line each.
         let errors = said.lines().filter(|line| !line.starts_with("  "));
         assert_eq!((output.status.code(), errors.count()), (Some(3), 1), "{name}: {said}");
         assert!(said.contains("no graphics adapter"), "{name}: {said}");

@@ -20,7 +20,7 @@ impl Phase {
     pub const ALL: [Self; 5] = [Self::Sky, Self::Opaque, Self::Blended, Self::Over, Self::Policy];
 }
 
-/// How much a pass draws.
+/// The draws and triangles of a pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PassCounts {
     /// Draw commands. Of a policy: the times that the picture is passed over.
@@ -34,6 +34,6 @@ pub struct PassCounts {
 pub struct Pass {
     /// Its place in the order.
     pub phase: Phase,
-    /// How much it draws.
+    /// Its draws and triangles.
     pub counts: PassCounts,
 }

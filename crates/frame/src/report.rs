@@ -7,10 +7,10 @@ use bevy_ecs::prelude::Resource;
 /// Counters and errors of the newest frame. Counts are exact, so they can be tested.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FrameReport {
-    /// Everything that kept the frame from being drawn as asked, in the order found. What an error names is left out of
-    /// the picture, and nothing is left out without one but [`passes_refused`](Self::passes_refused). What goes wrong
-    /// beside the frames is told here as well, once, though nothing is left out for it: a pipeline that a frame can do
-    /// without.
+    /// Everything that kept the frame from being drawn as requested, in the order found. The subject of each error is
+    /// omitted from the picture, and nothing is omitted without an error but [`passes_refused`](Self::passes_refused).
+    /// A failure outside the frames is reported here too, once, though nothing is omitted for it: that of a pipeline
+    /// that a frame can do without.
     pub errors: Vec<RenderError>,
     /// Objects with a mesh that are not [hidden](halfway_lighting::Visibility).
     pub objects: u32,

@@ -18,7 +18,7 @@ pub enum RenderSet {
     /// [`Lights`](crate::lights::gather::Lights) holds the lights in eye space; each visible object has a level of detail, and each of
     /// its patches that is seen has its light lists.
     Illuminate,
-    /// Those patches are draws: sorted, equal ones instanced, and those that share their state together.
+    /// Turns those patches into draws: sorted, equal ones instanced, and those with the same state together.
     Batch,
     /// The adapter has the data that the draws read: meshes, pipelines, instances, materials, lights and their lists.
     Upload,

@@ -1,4 +1,4 @@
-//! Where the time of a frame goes on the CPU, set by set.
+//! The time of a frame on the CPU, set by set.
 
 use crate::mean::{self, FrameWeights};
 use crate::sets::RenderSet;
@@ -9,7 +9,7 @@ use bevy_transform::TransformSystems;
 
 use std::time::{Duration, Instant};
 
-/// How long the CPU took for each [`RenderSet`], and how long the frame waited for the display.
+/// The CPU's time for each [`RenderSet`], and the frame's wait for the display.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SetTimes {
     /// In seconds, by the sets' order.
@@ -18,10 +18,10 @@ pub struct SetTimes {
 }
 
 impl SetTimes {
-    /// From the end of the set before to the end of this one, by the clock on the wall, without
+    /// The time from the end of the set before to the end of this one, by the wall clock, without
     /// [`SetTimes::display`]. Systems of the App that the schedule runs in between count too; order them
     /// before [`RenderSet::View`] or after [`RenderSet::Deliver`] to keep them out.
-    pub fn of(&self, set: RenderSet) -> Duration {
+    pub fn duration(&self, set: RenderSet) -> Duration {
         Duration::from_secs_f64(self.sets[set as usize])
     }
 
@@ -30,7 +30,7 @@ impl SetTimes {
         Duration::from_secs_f64(self.sets.iter().sum())
     }
 
-    /// In the calls that acquire a picture of the window's surface and present it. They wait where the
+    /// The time in the calls that acquire a picture of the window's surface and present it. They wait where the
     /// display sets the pace, so this is part of no set. Zero without a window.
     pub fn display(&self) -> Duration {
         Duration::from_secs_f64(self.display)
@@ -38,7 +38,7 @@ impl SetTimes {
 
     /// Every set with its time, in the order of a frame.
     pub fn sets(&self) -> impl Iterator<Item = (RenderSet, Duration)> {
-        RenderSet::ALL.into_iter().map(|set| (set, self.of(set)))
+        RenderSet::ALL.into_iter().map(|set| (set, self.duration(set)))
     }
 
     /// Moves towards `new` by its share, 0 to 1.
@@ -51,7 +51,7 @@ impl SetTimes {
 }
 
 /// The CPU's time of a frame, set by set, of the newest one and smoothed. Holds after
-/// [`RenderSet::Deliver`]; until then it tells of the frame before.
+/// [`RenderSet::Deliver`]; until then it is of the frame before.
 ///
 /// ```no_run
 /// # use bevy_app::App;
@@ -182,12 +182,12 @@ mod tests {
         frame(&mut times, start, MS);
         times.begin(start + 50 * MS);
         times.end(RenderSet::View, start + 90 * MS);
-        assert_close(times.newest().of(RenderSet::View), MS);
+        assert_close(times.newest().duration(RenderSet::View), MS);
         assert_close(times.newest().total(), 45 * MS);
     }
 
     #[test]
-    fn the_wait_for_the_display_is_no_sets() {
+    fn waiting_for_the_display_counts_to_no_set() {
         let mut times = FrameTimes::default();
         let start = Instant::now();
         times.begin(start);
@@ -195,7 +195,7 @@ mod tests {
         times.end(RenderSet::View, Instant::now());
         times.finish();
         let whole = start.elapsed();
-        let (wait, view) = (times.newest().display(), times.newest().of(RenderSet::View));
+        let (wait, view) = (times.newest().display(), times.newest().duration(RenderSet::View));
         assert!(wait >= 20 * MS, "{wait:?}");
         // However slow the machine, nothing may count twice.
         assert!(wait + view <= whole, "{wait:?} and {view:?} of {whole:?}");

@@ -1,4 +1,4 @@
-//! How a frame's picture constrains its making: the values of its pixels, and whether it is read back.
+//! The properties of a picture that constrain its frame: the values of its pixels, and whether it is read back.
 
 use bevy_ecs::prelude::Resource;
 use halfway_lighting::{Encoding, Intensity};
@@ -42,7 +42,7 @@ impl PixelValues {
         }
     }
 
-    /// How much of a tolerance in steps of the picture is left for the values.
+    /// The share of a tolerance in steps of the picture that is left for the values.
     pub fn share(self) -> f64 {
         match self {
             Self::Bytes(_) | Self::Floats => 1.0,

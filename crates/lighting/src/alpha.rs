@@ -63,6 +63,6 @@ impl AlphaMode {
     /// # Errors
     /// Returns [`InvalidValue`] if the cutoff is negative or not finite.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.cutoff().map_or(Ok(()), |cutoff| Fields::of("AlphaMode").non_negative("cutoff", cutoff))
+        self.cutoff().map_or(Ok(()), |cutoff| Fields::for_owner("AlphaMode").non_negative("cutoff", cutoff))
     }
 }

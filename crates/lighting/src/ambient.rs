@@ -18,7 +18,7 @@ impl GlobalAmbient {
     /// # Errors
     /// The first channel that is negative, above 10¹² or not a number.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        Fields::of("GlobalAmbient").color("0", self.0)
+        Fields::for_owner("GlobalAmbient").color("0", self.0)
     }
 }
 

@@ -37,9 +37,9 @@ pub struct Camera {
     pub viewer: Viewer,
     /// Coverage samples a pixel. Default one.
     pub samples: Samples,
-    /// What an 8-bit picture holds. Default [`Encoding::Srgb`].
+    /// The encoding of an 8-bit picture. Default [`Encoding::Srgb`].
     pub encoding: Encoding,
-    /// What becomes of intensities above 1. Default [`Intensity::Clamp`].
+    /// The policy for intensities above 1. Default [`Intensity::Clamp`].
     pub intensity: Intensity,
 }
 
@@ -76,7 +76,7 @@ impl Samples {
     }
 }
 
-/// What the channels of an 8-bit picture hold.
+/// The encoding of the channels of an 8-bit picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Encoding {
     /// I encoded with the sRGB curve (IEC 61966-2-1), as displays expect.
@@ -87,7 +87,7 @@ pub enum Encoding {
 }
 
 impl Encoding {
-    /// What stands for the linear intensity I in [0, 1], itself in [0, 1].
+    /// The code of the linear intensity I in [0, 1], itself in [0, 1].
     ///
     /// The sRGB curve is 12.92·I up to 0.0031308, then 1.055·I^(1/2.4) − 0.055; 1 is reached exactly.
     pub fn encode(self, linear: f64) -> f64 {
@@ -161,7 +161,7 @@ impl Camera {
     /// # Errors
     /// An [`InvalidValue`] that names the field.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        let fields = Fields::of("Camera");
+        let fields = Fields::for_owner("Camera");
         self.projection.validate_in(fields.inside("projection."))?;
         fields.color("background", self.background)?;
         self.intensity.validate()

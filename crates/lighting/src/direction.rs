@@ -20,5 +20,5 @@ pub fn rotation_along(along: Vec3) -> Result<Quat, InvalidValue> {
 pub(crate) fn direction(value: Vec3, owner: &'static str, field: &str) -> Result<Vec3, InvalidValue> {
     normalize(value.to_array())
         .map(Vec3::from_array)
-        .ok_or_else(|| Fields::of(owner).error(field, Problem::NoDirection { value: value.to_array() }))
+        .ok_or_else(|| Fields::for_owner(owner).error(field, Problem::NoDirection { value: value.to_array() }))
 }

@@ -5,10 +5,10 @@ use core::f32::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 use crate::equations::{Real, power};
 use crate::invalid::{Fields, InvalidValue, Problem};
 
-/// How far an angle in radians may lie from π/2 or π and still be taken as it, because degrees were converted in `f32`.
+/// An angle in radians within this distance of π/2 or π counts as that angle, because degrees were converted in `f32`.
 const ANGLE_SLACK: f32 = 1e-6;
 
-/// How a light weakens with the distance d: `1 / (constant + linear·d + quadratic·d²)`, d in world units.
+/// The attenuation of a light with the distance d: `1 / (constant + linear·d + quadratic·d²)`, d in world units.
 ///
 /// Each constant is finite and 0 or more, and at least one is positive. The quotient is at most 10⁶
 /// ([`ATTENUATION_MAX`](crate::equations::ATTENUATION_MAX)), so that a light without a constant term stays finite at d
@@ -39,7 +39,7 @@ impl Attenuation {
     /// # Errors
     /// A constant is negative or not finite, or all three are 0.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        let fields = Fields::of("Attenuation");
+        let fields = Fields::for_owner("Attenuation");
         for (name, value) in [("constant", self.constant), ("linear", self.linear), ("quadratic", self.quadratic)] {
             fields.non_negative(name, value)?;
         }
@@ -79,9 +79,9 @@ impl Cone {
         Self { cutoff, inner: None, exponent: 0.0 }
     }
 
-    /// This cone around a unit direction, the way the light travels; `None` where the cutoff is π.
+    /// This cone around a unit direction, in which the light travels; `None` if the cutoff is π.
     pub fn along<T: Real>(&self, direction: [T; 3]) -> Option<ConeTerms<T>> {
-        let real = |value: f32| T::of(value.into());
+        let real = |value: f32| T::from_f64(value.into());
         (!self.is_none()).then(|| ConeTerms {
             direction,
             cos_cutoff: real(self.cutoff).cosine(),
@@ -101,7 +101,7 @@ impl Cone {
     /// The cutoff is neither in [0, π/2] nor π; the inner angle is not in [0, cutoff]; the exponent is negative or not
     /// finite.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.validate_as(Fields::of("Cone"))
+        self.validate_as(Fields::for_owner("Cone"))
     }
 
     pub(super) fn validate_as(&self, fields: Fields) -> Result<(), InvalidValue> {
@@ -136,7 +136,7 @@ pub const ATTENUATION_MAX: f32 = 1e6;
 /// A cone, ready for evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConeTerms<T> {
-    /// The way the light travels along the axis, unit length, in the space of the evaluation.
+    /// The direction of the light's travel along the axis, unit length, in the space of the evaluation.
     pub direction: [T; 3],
     /// cos(cutoff). Differences below the resolution of `T` near 1 are lost: in `f32` a cutoff under 2.4e-4 rad is 0.
     pub cos_cutoff: T,
@@ -160,16 +160,16 @@ impl<T: Real> ConeTerms<T> {
 
 /// A number in another number type, rounded once.
 pub(crate) fn number<T: Real, U: Real>(value: T) -> U {
-    U::of(value.to_f64().unwrap_or(f64::NAN))
+    U::from_f64(value.to_f64().unwrap_or(f64::NAN))
 }
 
 /// `1 / max(a + b·d + c·d², 10⁻⁶)` for the constants `[a, b, c]` and the distance d, all 0 or more.
 ///
-/// With a = 0 and d = 0 it is [`ATTENUATION_MAX`]. Where the divisor overflows it is 0.
+/// With a = 0 and d = 0 it is [`ATTENUATION_MAX`]. If the divisor overflows it is 0.
 pub fn attenuation<T: Real>([a, b, c]: [T; 3], d: T) -> T {
     // Horner's form, and a finite d, keep 0·∞ out: with c = 0 and a huge d, c·d² would be NaN.
     let d = d.min(T::max_value());
-    (a + d * (b + c * d)).max(T::of(f64::from(ATTENUATION_MAX)).recip()).recip()
+    (a + d * (b + c * d)).max(T::from_f64(f64::from(ATTENUATION_MAX)).recip()).recip()
 }
 
 /// `clamp(1 − (d/R)⁴, 0, 1)²` for a distance d and a range R > 0 (`KHR_lights_punctual`).

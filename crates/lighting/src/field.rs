@@ -16,11 +16,11 @@ pub struct Field<T> {
     pub meaning: &'static str,
     /// The range of the number, or of each of the three.
     pub range: Range,
-    /// Where it is in the component.
+    /// Its location in the component.
     pub place: FieldPlace<T>,
 }
 
-/// Where a [`Field`] is in its component, by its type.
+/// The location of a [`Field`] in its component, by its type.
 #[derive(Debug)]
 pub enum FieldPlace<T> {
     /// A number.

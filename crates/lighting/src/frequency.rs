@@ -1,6 +1,6 @@
-//! How often a term is evaluated.
+//! The frequency at which a term is evaluated.
 
-/// Where a term of the lights is evaluated.
+/// The frequency at which a term of the lights is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Frequency {
     /// Nowhere: the term is left out.

@@ -5,7 +5,7 @@ use glam::{Vec3, Vec4};
 use crate::direction::direction;
 use crate::invalid::{Fields, InvalidValue, Problem};
 
-/// Where a light with a homogeneous position is, as `GL_POSITION` of OpenGL has it.
+/// The homogeneous position of a light, as `GL_POSITION` of OpenGL.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightPlace {
     /// w ≠ 0: the point xyz/w.
@@ -21,7 +21,7 @@ pub enum LightPlace {
 pub fn from_homogeneous(position: Vec4) -> Result<LightPlace, InvalidValue> {
     let refused = || {
         let problem = Problem::NotHomogeneous { value: position.to_array() };
-        Fields::of("Light").error("position", problem)
+        Fields::for_owner("Light").error("position", problem)
     };
     if !position.is_finite() {
         return Err(refused());

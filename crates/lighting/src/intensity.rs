@@ -83,7 +83,7 @@ impl Intensity {
     /// # Errors
     /// The number is out of its range.
     pub fn validate(self) -> Result<(), InvalidValue> {
-        let fields = Fields::of("Intensity");
+        let fields = Fields::for_owner("Intensity");
         match self {
             Self::Clamp | Self::Aces => Ok(()),
             Self::Renormalize { smoothing } => fields.within("Renormalize.smoothing", smoothing, Self::SMOOTHING_RANGE),

@@ -80,7 +80,7 @@ pub struct Fields {
 
 impl Fields {
     /// The fields of a value of the type `owner`.
-    pub const fn of(owner: &'static str) -> Self {
+    pub const fn for_owner(owner: &'static str) -> Self {
         Self { owner, prefix: "" }
     }
 

@@ -25,7 +25,8 @@ use crate::equations::Real;
 /// `matched_shininess(0)` is 0; β is at most the largest finite number.
 pub fn matched_shininess<T: Real>(alpha: T) -> T {
     // From 10⁶ on the offset is 1.25 to six digits, and α² must not overflow.
-    let a = alpha.min(T::of(1e6));
-    let offset = T::of(1.25) * a * (a + T::of(2.06)) / (a * a + T::of(1.107) * a + T::of(0.8247));
-    (T::of(4.0) * alpha + offset).min(T::max_value())
+    let a = alpha.min(T::from_f64(1e6));
+    let offset =
+        T::from_f64(1.25) * a * (a + T::from_f64(2.06)) / (a * a + T::from_f64(1.107) * a + T::from_f64(0.8247));
+    (T::from_f64(4.0) * alpha + offset).min(T::max_value())
 }

@@ -127,7 +127,7 @@ impl Material {
     /// # Errors
     /// The first field that is outside the range it documents.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        field::validate(self, Fields::of("Material"))
+        field::validate(self, Fields::for_owner("Material"))
     }
 }
 
@@ -169,6 +169,6 @@ impl BackMaterial {
     /// # Errors
     /// The first field that is outside the range it documents.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        field::validate(&self.0, Fields::of("BackMaterial"))
+        field::validate(&self.0, Fields::for_owner("BackMaterial"))
     }
 }

@@ -17,7 +17,7 @@ pub fn light_position(transform: &GlobalTransform) -> Result<Vec3, InvalidValue>
         Ok(position)
     } else {
         let problem = Problem::NoPosition { value: position.to_array() };
-        Err(Fields::of("GlobalTransform").error("translation", problem))
+        Err(Fields::for_owner("GlobalTransform").error("translation", problem))
     }
 }
 

@@ -89,7 +89,7 @@ impl Projection {
     /// # Errors
     /// An [`InvalidValue`] that names the field.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.validate_in(Fields::of("Projection"))
+        self.validate_in(Fields::for_owner("Projection"))
     }
 
     pub(crate) fn validate_in(&self, fields: Fields) -> Result<(), InvalidValue> {
@@ -112,8 +112,10 @@ impl Projection {
     /// The height of what the picture shows at a depth, in world units.
     pub fn height_at<T: Real>(&self, depth: T) -> T {
         match *self {
-            Self::Perspective { fov_y, .. } => T::of(2.0) * depth * (T::of(fov_y.into()) * T::of(0.5)).tangent(),
-            Self::Orthographic { height, .. } => T::of(height.into()),
+            Self::Perspective { fov_y, .. } => {
+                T::from_f64(2.0) * depth * (T::from_f64(fov_y.into()) * T::from_f64(0.5)).tangent()
+            }
+            Self::Orthographic { height, .. } => T::from_f64(height.into()),
         }
     }
 
@@ -166,7 +168,12 @@ impl Projection {
             }
         };
         let x = y * f64::from(height) / f64::from(width);
-        Lens { scale: [T::of(x), T::of(y)], near: T::of(self.near().into()), far: T::of(far), is_parallel }
+        Lens {
+            scale: [T::from_f64(x), T::from_f64(y)],
+            near: T::from_f64(self.near().into()),
+            far: T::from_f64(far),
+            is_parallel,
+        }
     }
 }
 
@@ -242,11 +249,12 @@ impl<T: Real> Lens<T> {
         }
         let (mut near, mut far) = (self.near, self.far);
         if nearest <= farthest {
-            let room = (farthest - nearest) * T::of(1.0 / 16.0) + nearest.abs().max(farthest.abs()) * T::of(1e-5);
+            let room =
+                (farthest - nearest) * T::from_f64(1.0 / 16.0) + nearest.abs().max(farthest.abs()) * T::from_f64(1e-5);
             (near, far) = (near.max(nearest - room), far.min(farthest + room));
         }
         // A buffer has some depth, also where nothing is shown.
-        let least = near + near.abs() * T::of(1e-4);
+        let least = near + near.abs() * T::from_f64(1e-4);
         let far = if far > least && far.is_finite() { far } else { near + near.abs().max(T::one()) };
         Self { near, far, ..*self }
     }
@@ -390,7 +398,7 @@ impl<T: Real> Lens<T> {
     pub fn holds(&self, center: [T; 3], radius: T) -> bool {
         let depth = -center[2];
         let sides = [0, 1].iter().all(|&axis| self.beyond(axis, center) <= -self.across(axis, radius));
-        let reach = radius * T::of(ROOM);
+        let reach = radius * T::from_f64(ROOM);
         depth - reach >= self.near && depth + reach <= self.far && sides
     }
 
@@ -406,9 +414,9 @@ impl<T: Real> Lens<T> {
     fn across(&self, axis: usize, radius: T) -> T {
         let scale = self.scale[axis];
         if self.is_parallel {
-            radius * scale * T::of(ROOM) + T::of(1e-6)
+            radius * scale * T::from_f64(ROOM) + T::from_f64(1e-6)
         } else {
-            radius * (scale * scale + T::one()).sqrt() * T::of(ROOM)
+            radius * (scale * scale + T::one()).sqrt() * T::from_f64(ROOM)
         }
     }
 
@@ -422,14 +430,14 @@ impl<T: Real> Lens<T> {
             return Some([scale * low, scale * high]);
         }
         let (nearest, farthest) = (depth.middle - depth.reach, depth.middle + depth.reach);
-        if nearest > T::of(1e-3) * depth.radius && nearest > T::zero() {
+        if nearest > T::from_f64(1e-3) * depth.radius && nearest > T::zero() {
             let low = scale * low / if low < T::zero() { nearest } else { farthest };
             let high = scale * high / if high < T::zero() { farthest } else { nearest };
             return Some([low, high]);
         }
         // It surrounds the eye, or nearly: only the side planes can leave it out.
-        let beyond =
-            scale * offset.abs() - depth.middle > depth.radius * (scale * scale + T::one()).sqrt() * T::of(1.0001);
+        let beyond = scale * offset.abs() - depth.middle
+            > depth.radius * (scale * scale + T::one()).sqrt() * T::from_f64(1.0001);
         (!beyond).then_some([T::neg_infinity(), T::infinity()])
     }
 
@@ -442,13 +450,13 @@ impl<T: Real> Lens<T> {
         let square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
         let across = (square - along * along).max(T::zero()).sqrt();
         // Over the sphere and the cone n·p is at least D·cos(γ + α) − r; where that is above 0 all faces turn away.
-        let room = if self.is_parallel { T::of(1e-4) } else { radius * T::of(1.0001) };
+        let room = if self.is_parallel { T::from_f64(1e-4) } else { radius * T::from_f64(1.0001) };
         along * cos - across * sin > room
     }
 
     /// How many pixels a length of 1 across the view takes where w is 1, in a picture of this many rows.
     pub fn pixels_at_unit_w(&self, rows: T) -> T {
-        T::of(0.5) * self.scale[1] * rows
+        T::from_f64(0.5) * self.scale[1] * rows
     }
 
     /// The height of a pixel at a depth, in units of eye space, in a picture of this many rows.

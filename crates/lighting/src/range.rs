@@ -1,4 +1,4 @@
-//! Which numbers a value may be.
+//! The range of numbers that a value may have.
 
 use std::ops::Bound::{self, Excluded, Included, Unbounded};
 use std::ops::RangeBounds;
@@ -13,11 +13,11 @@ pub const CHANNEL_MAX: f32 = 1e12;
 /// The numbers that a field takes, all of them finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// Where they begin.
+    /// The lower end.
     pub least: Bound<f32>,
-    /// Where they end.
+    /// The upper end.
     pub most: Bound<f32>,
-    /// One more number, which stands outside.
+    /// One more number, outside the range.
     pub also: Option<f32>,
     /// The range in words that follow "expected".
     pub expected: &'static str,

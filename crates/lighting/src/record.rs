@@ -18,7 +18,7 @@ use crate::{Faces, Reflectance};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct LightRecord {
-    /// Where it is, or the unit vector toward it.
+    /// Its position, or the unit vector toward it.
     pub position: [f32; 3],
     /// 1/R, or 0 for no end.
     pub inverse_range: f32,
@@ -154,10 +154,10 @@ pub struct RecordField {
     pub range: Range,
 }
 
-/// Which side of triangles is left out.
+/// The side of triangles that is culled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Cull {
-    /// The back: what is seen clockwise.
+    /// The back: triangles that wind clockwise in the picture.
     #[default]
     Back,
     /// The front.
@@ -210,7 +210,7 @@ pub struct SurfaceRecord {
     pub padding: [u32; 18],
 }
 
-/// Where a mesh stands, and what it is made of.
+/// The transform of a mesh and its material.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct InstanceRecord {

@@ -112,7 +112,7 @@ impl Terms {
             None => Ok(()),
             Some(other) => {
                 let field = if self.diffuse == Frequency::Triangle { "diffuse" } else { "specular" };
-                Err(Fields::of("Shading").inside("Terms.").error(field, Problem::TriangleBeside { other }))
+                Err(Fields::for_owner("Shading").inside("Terms.").error(field, Problem::TriangleBeside { other }))
             }
         }
     }

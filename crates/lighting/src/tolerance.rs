@@ -1,4 +1,4 @@
-//! How far a picture may differ from the exact one.
+//! The tolerance of a picture: its allowed difference from the exact one.
 
 use crate::field::{Described, Field, validate};
 use crate::invalid::{Fields, InvalidValue};
@@ -14,7 +14,8 @@ macro_rules! meaning {
     };
 }
 
-/// How far a picture may differ from the exact one, which has every triangle and every light. Default: not at all.
+/// The allowed difference of a picture from the exact one, which has every triangle and every light. Default: not at
+/// all.
 ///
 /// `steps` allows lights to be left out that are too weak to show: for each patch of a surface the weakest, as long as
 /// a proven bound of their *sum* changes no channel of any pixel by more than `steps`/255 of the written picture.
@@ -53,7 +54,7 @@ impl Tolerance {
     /// # Errors
     /// Returns [`InvalidValue`] if one is negative or not finite.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        validate(self, Fields::of("Tolerance"))
+        validate(self, Fields::for_owner("Tolerance"))
     }
 }
 

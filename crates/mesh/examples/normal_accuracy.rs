@@ -92,7 +92,7 @@ fn teapot() -> TestSurface {
     TestSurface { name: "teapot", pieces: pieces.collect(), cells: [4, 8, 16, 32] }
 }
 
-/// Where the vertices of the grid are.
+/// The vertices of the grid.
 #[derive(Clone, Copy, PartialEq)]
 enum MeshKind {
     Regular,

@@ -17,7 +17,7 @@ pub(crate) struct TriangleTree<C> {
 struct Node {
     min: Vec3,
     max: Vec3,
-    /// Where the triangles of a leaf begin, the number of the second half's node otherwise.
+    /// The first triangle of a leaf; for other nodes, the number of the second half's node.
     next: u32,
     /// The number of a leaf's triangles, 0 otherwise.
     count: u32,

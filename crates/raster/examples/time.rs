@@ -1,10 +1,9 @@
-//! How long scenes S1, S2 and S4, and a model, take by shading, width and threads, in milliseconds a frame: with one
-//! thread the mean of what it was running (on Linux; so a busy machine disturbs less), with two the shortest.
+//! Times scenes S1, S2 and S4, and a model, by shading, SIMD level and threads, in milliseconds a frame: with one
+//! thread the mean CPU time (on Linux, so that a busy machine disturbs less), with two the shortest wall time.
 //!
 //! `cargo run --release -p halfway_raster --example time [FRAMES [FOLDER]]`; pictures go into the folder, unless it is
-//! `-`. Only what has the words of `ONLY` in its line is timed, such as `ONLY="S1 avx2 1"`, and of the shadings those
-//! that it names, if any, as in `ONLY="S1 avx2 1 Phong"`. `MODEL` is the path of a model that is drawn, too, large and
-//! small.
+//! `-`. `ONLY` selects rows by words of their lines, such as `ONLY="S1 avx2 1"`, and shadings by name, as in `ONLY="S1
+//! avx2 1 Phong"`. `MODEL` is the path of a model to draw as well, large and small.
 
 mod common;
 
@@ -133,7 +132,7 @@ fn turntable(mesh: &Mesh, size: [u32; 2], shading: Shading) -> Result<Scene, Ras
     Ok(scene)
 }
 
-/// For how many seconds this thread has been running.
+/// The CPU time of this thread in seconds.
 fn running() -> Option<f64> {
     let line = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     Some(line.split_whitespace().next()?.parse::<f64>().ok()? * 1e-9)

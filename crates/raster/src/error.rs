@@ -65,7 +65,7 @@ pub enum RasterError {
         /// How many there are.
         available: u64,
     },
-    /// A range of indices does not begin and end where the mesh was cut.
+    /// A range of indices does not begin and end at cuts of the mesh.
     #[error("draw {draw}: indices {start}..{end} do not begin and end where the mesh was cut")]
     Cut {
         /// Which draw.
@@ -94,7 +94,7 @@ pub enum RasterError {
     Width {
         /// The name that was asked for.
         asked: String,
-        /// The names that would do, with commas between.
+        /// The valid names, separated by commas.
         available: String,
     },
     /// The system refuses threads.

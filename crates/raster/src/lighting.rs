@@ -14,7 +14,7 @@ use halfway_lighting::equations::{ATTENUATION_MAX, COINCIDENT, GRAZING};
 use halfway_lighting::lights::Kind;
 use halfway_lighting::record::{LightRange, LightRecord, MaterialRecord, SurfaceLights};
 
-/// Which terms are shaded; ambient that is attenuated goes with diffuse.
+/// The shaded terms; attenuated ambient light belongs to the diffuse term.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct ShadedTerms {
     /// ka·La where it is attenuated, and kd·Ld.
@@ -29,7 +29,7 @@ impl ShadedTerms {
     }
 }
 
-/// Points of a surface, on the side that is seen.
+/// Points of a surface, on the visible side.
 #[derive(Clone, Copy)]
 pub(crate) struct Points<S: Simd> {
     pub(crate) p: V3<S>,
@@ -37,16 +37,16 @@ pub(crate) struct Points<S: Simd> {
     pub(crate) n: V3<S>,
     /// Toward the viewer, unit length.
     pub(crate) v: V3<S>,
-    /// The square of a distance up to which it is to be looked at more closely.
+    /// The squared distance below which a light may coincide with the point.
     coincident: F<S>,
-    /// ‖p‖, where its square is a number.
+    /// ‖p‖, if its square is finite.
     distance: F<S>,
 }
 
 impl<S: Simd> Points<S> {
     #[inline(always)]
     pub(crate) fn new(simd: S, p: V3<S>, n: V3<S>, v: V3<S>) -> Self {
-        // A little more than what counts as the point itself.
+        // A little more than the distance of coincidence.
         let share = splat(simd, 1.01 * COINCIDENT * COINCIDENT);
         let squared = dot::<S>(p, p);
         Self { p, n, v, coincident: max::<S>(squared * share, splat(simd, LEAST_SQUARE)), distance: squared.sqrt() }
@@ -62,7 +62,7 @@ pub(crate) struct Irradiance<S: Simd> {
 }
 
 impl<S: Simd> Irradiance<S> {
-    /// Another where `mask` says so.
+    /// `self` in the lanes of `mask`, else `other`.
     #[inline(always)]
     pub(crate) fn or(self, mask: M<S>, other: &Self) -> Self {
         Self {
@@ -79,7 +79,7 @@ impl<S: Simd> Irradiance<S> {
     }
 }
 
-/// `max(a + b·d + c·d², 10⁻⁶)`, what attenuation is 1 over; at most 10³⁰, that it may be multiplied.
+/// `max(a + b·d + c·d², 10⁻⁶)`, the divisor of attenuation; at most 10³⁰, so that products stay finite.
 #[inline(always)]
 pub(crate) fn attenuation_divisor<S: Simd>(simd: S, light: &LightRecord, d: F<S>) -> F<S> {
     let [a, b, c] = [light.constant, light.linear, light.quadratic].map(|coefficient| splat(simd, coefficient));
@@ -106,17 +106,17 @@ pub(crate) fn spot_factor<S: Simd>(simd: S, l: V3<S>, light: &LightRecord) -> F<
     cos_phi.simd_ge(splat(simd, light.cos_cutoff)).select(factor * inner * inner, splat(simd, 0.0))
 }
 
-/// A light as it arrives at points.
+/// The light of one source at points.
 #[derive(Clone, Copy)]
 struct Incidence<S: Simd> {
     l: V3<S>,
-    /// 0 where the light counts as behind.
+    /// 0 if the light counts as behind.
     n_dot_l: F<S>,
     /// att·spot.
     weight: F<S>,
 }
 
-/// Adds what arrives of a light.
+/// Adds the light of one source.
 #[inline(always)]
 fn add_light<S: Simd>(
     simd: S,
@@ -149,7 +149,7 @@ fn has_ambient(light: &LightRecord) -> bool {
     light.ambient[0] + light.ambient[1] + light.ambient[2] > 0.0
 }
 
-/// Whether none of the points takes anything from a light that is so far to their fronts.
+/// Whether a light with these n·l adds nothing to any of the points.
 #[inline(always)]
 fn is_behind_all<S: Simd>(simd: S, n_dot_l: F<S>, light: &LightRecord, terms: ShadedTerms) -> bool {
     !(terms.diffuse && has_ambient(light)) && n_dot_l.simd_gt(splat(simd, 0.0)).all_false()
@@ -216,7 +216,7 @@ fn finite_light<S: Simd>(
     }
 }
 
-/// How a light at a position arrives, with its cone where `cone` is set; `None` where it is behind all points, or reaches
+/// The light of a source at a position, with its cone if `cone` is set; `None` if it is behind all points, or reaches
 /// none.
 #[inline(always)]
 fn finite_incidence<S: Simd>(
@@ -243,7 +243,7 @@ fn finite_incidence<S: Simd>(
     let length = squared.sqrt();
     let d = stretch.map_or(length, |unit| min::<S>(length * unit, splat(simd, f32::MAX)));
     let divisor = attenuation_divisor(simd, light, d);
-    // One division for both; where the product is infinite nothing arrives.
+    // One division for both; an infinite product means no light.
     let both = splat(simd, 1.0) / (length * divisor);
     let inverse = divisor * both;
     let l = scale::<S>(to_light, inverse);
@@ -258,13 +258,13 @@ fn finite_incidence<S: Simd>(
     Some(Incidence { l, n_dot_l: is_above.select(n_dot_to_light * inverse, splat(simd, 0.0)), weight })
 }
 
-/// Squares of distances from here on are not computed as they are, nor those below the least.
+/// Larger squares of distances are computed with scaling, as are those below the least.
 const LARGEST_SQUARE: f32 = (1_u128 << 120) as f32;
 const LEAST_SQUARE: f32 = 1.0 / (1_u64 << 60) as f32;
 
-/// Cases that squares cannot tell: the way to a light that is far off, very near, or at the point itself, where it is n; what
-/// its length is to be multiplied by; and ‖p‖ over that, or 0 at the point. Ordinary distances come out as elsewhere,
-/// since powers of two round nothing.
+/// Lights whose squared distance overflows or underflows: the vector to a light that is very far, very near, or at the
+/// point itself, where it is n; the factor of its length; and ‖p‖ over that factor, or 0 at the point. Ordinary
+/// distances give the same result as elsewhere, since scaling by powers of two is exact.
 #[cold]
 fn extraordinary<S: Simd>(simd: S, position: [f32; 3], points: &Points<S>) -> (V3<S>, F<S>, F<S>) {
     simd.vectorize(
@@ -285,8 +285,8 @@ fn extraordinary<S: Simd>(simd: S, position: [f32; 3], points: &Points<S>) -> (V
     )
 }
 
-/// A vector over a power of two, so that its largest coordinate is from 1 to 4 (or small, of the smallest); and that
-/// power.
+/// A vector divided by a power of two, so that its largest coordinate is from 1 to 4 (or less, for the smallest); and
+/// that power.
 #[inline(always)]
 fn brought_near<S: Simd>(simd: S, a: V3<S>) -> (V3<S>, F<S>) {
     let largest = max::<S>(max::<S>(a[0].abs(), a[1].abs()), a[2].abs());
@@ -313,7 +313,7 @@ pub(crate) fn to_viewer<S: Simd>(simd: S, p: V3<S>, n: V3<S>, local_viewer: bool
     scale::<S>(p, splat(simd, -1.0) / squared.sqrt())
 }
 
-/// The light that arrives at points from the lights of a surface. It is most of the code; see [`gathered`].
+/// The sum of a surface's lights at points. It is most of the code; see [`gathered`].
 #[inline(always)]
 pub(crate) fn gathered_here<S: Simd>(
     simd: S,
@@ -368,13 +368,13 @@ fn add_listed<S: Simd>(
                 finite_light(simd, sum, light, kind == Kind::Spot, points, lobe, terms);
             }
             Some(Kind::Hemisphere) => hemisphere_light(simd, sum, light, points, terms),
-            // Refused by the check of the pass.
+            // The check of the pass refuses this.
             None => {}
         }
     }
 }
 
-/// I = ke + ka·(Ga + Σ La) + Σ …, from what arrives.
+/// I = ke + ka·(Ga + Σ La) + Σ …, from the irradiance.
 #[inline(always)]
 pub(crate) fn reflected<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &MaterialRecord) -> V3<S> {
     add::<S>(splat3(simd, side.base), added(simd, arriving, side))
@@ -409,7 +409,7 @@ pub(crate) fn tinted_terms<S: Simd>(simd: S, arriving: &Irradiance<S>, side: &Ma
     })
 }
 
-/// The ambient part of a surface with a color, with the base where `base` says so.
+/// The ambient part of a surface with a color, with the base if `base` is set.
 #[inline(always)]
 pub(crate) fn ambient_part<S: Simd>(
     simd: S,

@@ -21,13 +21,13 @@ enum ToneCurve {
 
 /// Values of a pixel.
 const CHANNELS: usize = 4;
-/// Values that a thread takes at once; a multiple of every width of vectors.
+/// Values that a thread processes at once; a multiple of every width of vectors.
 const PART: usize = CHANNELS * 16 * 1024;
 
 impl Rasterizer {
-    /// Makes a picture of what a pass of [`PixelFormat::Floats`] has drawn, by a policy that acts on the finished
-    /// picture; `format` is the output's. Returns the number that all was divided by under [`Intensity::Renormalize`],
-    /// whose smoothing counts where that of the picture `before` is given.
+    /// Applies a policy that acts on the finished picture to the output of a pass of [`PixelFormat::Floats`]; `format`
+    /// is the output's. Returns the divisor under [`Intensity::Renormalize`], whose smoothing applies if the divisor of
+    /// the picture `before` is given.
     ///
     /// # Errors
     /// [`RasterError::Finish`] where the lengths differ, or the format is not the output's; [`RasterError::Policy`] for
@@ -74,7 +74,7 @@ impl Rasterizer {
 
     /// The largest channel.
     fn largest(&self, drawn: &[f32]) -> f32 {
-        // Numbers from 0 are in the order of their bits.
+        // Non-negative floats sort as their bits do.
         let found = AtomicU32::new(0);
         let level = self.level();
         self.each(drawn.chunks(PART), |part| {
@@ -85,7 +85,7 @@ impl Rasterizer {
     }
 }
 
-/// The largest value. Alpha is 1, which nothing below is divided by.
+/// The largest value. Alpha is 1, below which nothing is divided.
 #[inline(always)]
 fn largest<S: Simd>(simd: S, values: &[f32]) -> f32 {
     let mut found = [0.0; MOST_LANES];
@@ -121,7 +121,7 @@ fn finish_bytes<S: Simd>(simd: S, curve: ToneCurve, as_srgb: bool, from: &[f32],
     }
 }
 
-/// Puts up to [`MOST_LANES`] values through a function, with what stands at their places so far.
+/// Applies a function to up to [`MOST_LANES`] values, together with the current values of the output.
 #[inline(always)]
 fn each_vector<S: Simd>(simd: S, from: &[f32], to: &mut [f32; MOST_LANES], function: impl Fn(F<S>, F<S>) -> F<S>) {
     let mut values = [0.0; MOST_LANES];
@@ -139,7 +139,7 @@ fn toned<S: Simd>(simd: S, curve: ToneCurve, i: F<S>) -> F<S> {
         ToneCurve::DividedBy(divisor) => i / number(divisor),
         ToneCurve::Reinhard(per_white) => i / (number(1.0) + i) * fma::<S>(i, number(per_white), number(1.0)),
         ToneCurve::Aces => {
-            // Where it has long reached 1.
+            // Beyond this the curve is constantly 1.
             let i = min::<S>(i, number(ACES_WHITE));
             let above = i * fma::<S>(i, number(2.51), number(0.03));
             let below = fma::<S>(i, fma::<S>(i, number(2.43), number(0.59)), number(0.14));

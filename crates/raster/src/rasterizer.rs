@@ -1,4 +1,4 @@
-//! The rasterizer, which draws passes and hands their tiles to threads.
+//! The rasterizer, which draws passes and distributes their tiles over threads.
 
 use crate::error::RasterError;
 use crate::input::check::check;
@@ -19,7 +19,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub struct RasterOptions {
     /// The vectors to draw with; `None` for [`VectorWidth::from_environment`].
     pub width: Option<VectorWidth>,
-    /// How many threads draw, the calling one among them; `None` for one a core. 0 counts as 1.
+    /// The number of threads, including the calling one; `None` for one a core. 0 counts as 1.
     pub threads: Option<usize>,
 }
 
@@ -32,12 +32,11 @@ pub struct Rasterizer {
     workers: Vec<Worker>,
 }
 
-/// A pass of less work than this many triangles and pixels is drawn by the calling thread: to wake another takes
-/// longer.
+/// A pass with fewer triangles and pixels than this is drawn by the calling thread, since waking another takes longer.
 const WORTH_A_THREAD: usize = 4_000;
 
 impl Rasterizer {
-    /// Finds out what the CPU has, and starts threads.
+    /// Detects the CPU's SIMD level, and starts threads.
     ///
     /// # Errors
     /// The width is not this CPU's, the environment names an unknown one, or the system refuses threads.
@@ -49,12 +48,12 @@ impl Rasterizer {
         Ok(Self { width, level, threads, bins: Bins::default(), workers })
     }
 
-    /// The vectors it draws with.
+    /// The SIMD level it draws with.
     pub fn width(&self) -> VectorWidth {
         self.width
     }
 
-    /// How many threads draw.
+    /// The number of threads that draw.
     pub fn threads(&self) -> usize {
         self.threads.count()
     }
@@ -64,17 +63,17 @@ impl Rasterizer {
         self.level
     }
 
-    /// Has a function called with each of some parts, by all threads.
+    /// Calls a function with each of some parts, on all threads.
     pub(crate) fn each<T: Send>(&self, parts: impl Iterator<Item = T> + Send, work: impl Fn(T) + Sync) {
         self.threads.share(0..self.threads.count(), parts, |_, part| work(part));
     }
 
-    /// Draws a pass into memory that holds four values a pixel: red, green, blue, alpha. It holds what was drawn into it
-    /// last with these `clear_tiles`, or anything while they are new; of what shows nothing but the clear color, then
-    /// and now, nothing is written.
+    /// Draws a pass into memory of four values a pixel: red, green, blue, alpha. The memory has to hold the last
+    /// picture that was drawn with these `clear_tiles`, or anything if they are new; tiles that were clear and stay
+    /// clear are not written.
     ///
     /// # Errors
-    /// Whatever is wrong with the pass or the output; nothing is drawn then.
+    /// The first fault of the pass or the output; nothing is drawn then.
     pub fn draw(&mut self, pass: &Pass, output: Output, clear_tiles: &mut ClearTiles) -> Result<(), RasterError> {
         check(pass, &output)?;
         let mut bins = std::mem::take(&mut self.bins);
@@ -115,7 +114,7 @@ struct Tiles {
 }
 
 impl Tiles {
-    /// Draws tile after tile while there are any, column by column: so threads are at different rows of tiles.
+    /// Draws the next tile while there are any, column by column, so that threads are at different rows of tiles.
     #[inline(always)]
     fn draw<S: Simd>(self, simd: S, worker: &mut Worker, scene: &Scene, next: &AtomicUsize, bands: &Bands) {
         loop {

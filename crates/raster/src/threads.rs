@@ -1,9 +1,9 @@
-//! Threads that work together.
+//! A pool of threads.
 
 use crate::error::RasterError;
 use std::sync::Mutex;
 
-/// Threads that do the parts of a task side by side, the calling one among them, and sleep between tasks.
+/// Threads that process the parts of a task in parallel, including the calling one, and sleep between tasks.
 #[derive(Debug)]
 pub struct Threads {
     count: usize,
@@ -14,8 +14,8 @@ impl Threads {
     /// The calling thread alone.
     pub const ALONE: Self = Self { count: 1, pool: None };
 
-    /// Starts `count` threads less the calling one, whose names begin with `name`; `None` for one a core. 0 counts as
-    /// 1.
+    /// Starts `count` − 1 threads beside the calling one, whose names begin with `name`; `None` for one a core. 0
+    /// counts as 1.
     ///
     /// # Errors
     /// The system refuses threads.
@@ -31,13 +31,12 @@ impl Threads {
         Ok(Self { count, pool: Some(pool) })
     }
 
-    /// How many there are, the calling one among them.
+    /// The number of threads, including the calling one.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Has `work` called with each of some workers, each on a thread of its own as far as there are threads, and waits
-    /// for all.
+    /// Calls `work` with each worker, each on a thread of its own as far as there are threads, and waits for all.
     pub fn all<W: Send>(&self, workers: impl IntoIterator<Item = W>, work: impl Fn(W) + Sync) {
         let mut workers = workers.into_iter();
         let Some(first) = workers.next() else { return };
@@ -53,8 +52,7 @@ impl Threads {
         }
     }
 
-    /// Has `work` called with each of some parts, by whichever of some workers is free. No more threads than workers
-    /// are woken.
+    /// Calls `work` with each part and a free worker. No more threads than workers are woken.
     pub fn share<W: Send, T: Send>(
         &self,
         workers: impl IntoIterator<Item = W>,

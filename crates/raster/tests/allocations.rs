@@ -1,6 +1,7 @@
-//! Memory in the steady state: with one thread a frame allocates nothing, and with more only what hands it to them.
+//! Memory in the steady state: with one thread a frame allocates nothing, and with more only the blocks that distribute
+//! it.
 //!
-//! A program of its own, since the allocator that counts is the program's, and one test, since every thread counts.
+//! This is a program of its own, since the counting allocator is global, with one test, since it counts all threads.
 
 #![allow(unsafe_code, reason = "an allocator is unsafe by its trait; this one only counts and hands on")]
 
@@ -13,10 +14,10 @@ use halfway_raster::{ClearTiles, Output, PixelFormat, RasterOptions, Rasterizer}
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// The system's allocator, with a count of the blocks that are asked for.
+/// The system's allocator, with a count of the allocated blocks.
 struct Counting(AtomicUsize);
 
-// SAFETY: every call is handed on to the system's allocator as it is.
+// SAFETY: every call is passed unchanged to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         self.0.fetch_add(1, Relaxed);
@@ -42,7 +43,7 @@ static ALLOCATOR: Counting = Counting(AtomicUsize::new(0));
 const WARM_UP: usize = 3;
 const FRAMES: usize = 8;
 
-/// How many blocks N frames ask for, once warm, of scenes that take turns.
+/// The blocks that N frames allocate, once warm, with scenes in turn.
 fn blocks(scenes: &[Scene], threads: usize) -> usize {
     let mut rasterizer = Rasterizer::new(RasterOptions { width: None, threads: Some(threads) }).expect("threads");
     let most = scenes.iter().map(|scene| 4 * scene.size[0] as usize * scene.size[1] as usize).max().expect("scenes");
@@ -90,8 +91,8 @@ fn scenes() -> Vec<Scene> {
 fn frames_allocate_nothing_once_warm() {
     let scenes = scenes();
     assert_eq!(blocks(&scenes, 1), 0, "with one thread");
-    // To hand a picture to a thread the pool takes one block, and another for each 63 places of its queue. Of the last
-    // scene, which is large, the pieces are handed over first, and then the picture.
+    // To pass a picture to a thread the pool allocates one block, and another for each 63 entries of its queue. For the
+    // last scene, which is large, the pieces are passed first, and then the picture.
     let pictures = scenes.len() * FRAMES;
     for threads in [2, 3] {
         let found = blocks(&scenes, threads);

@@ -269,7 +269,7 @@ fn depends_on_the_frame_before(app: &mut App) -> bool {
     cameras.iter(world).next().is_none_or(|camera| follows(camera.intensity))
 }
 
-/// Finishes the plugins, as a runner has to.
+/// Finishes the plugins, which is a runner's task.
 fn ready(app: &mut App) {
     if app.plugins_state() != PluginsState::Cleaned {
         app.finish();

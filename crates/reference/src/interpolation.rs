@@ -1,9 +1,9 @@
-//! Three ways to carry what is known at the corners of a polygon to a point within it, on the picture.
+//! Three ways to interpolate values at the corners of a polygon to a point within it, on the picture.
 //!
-//! The oracle and the renderer interpolate perspective-correctly. The others are what was published first, and what
-//! graphics hardware once did; they are here to be compared with.
+//! The oracle and the renderer interpolate perspective-correctly. The others are the methods that were published first,
+//! and that graphics hardware once used; they are here for comparison.
 
-/// How values at corners are carried into a polygon.
+/// How values at corners are interpolated across a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Interpolation {
     /// Linear on the surface in space: value/w and 1/w are linear on the picture, w the distance along the view (Blinn,
@@ -20,11 +20,11 @@ pub enum Interpolation {
 /// A corner of a convex polygon on the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PolygonCorner<const N: usize> {
-    /// Its place on the picture, x then y.
+    /// Its position on the picture, x then y.
     pub at: [f64; 2],
     /// Its distance along the view, above 0.
     pub w: f64,
-    /// What is known of it.
+    /// The values to interpolate.
     pub value: [f64; N],
 }
 
@@ -32,7 +32,7 @@ impl Interpolation {
     /// All three.
     pub const ALL: [Self; 3] = [Self::Perspective, Self::Screen, Self::ScanLine];
 
-    /// In words.
+    /// The method's name for charts.
     pub fn name(self) -> &'static str {
         match self {
             Self::Perspective => "perspective-correct",

@@ -1,5 +1,5 @@
 #![doc = include_str!("../README.md")]
-// Powers and the functions of angles only by the door in `halfway_lighting::equations`: see clippy.toml.
+// Powers and the functions of angles are called only through `halfway_lighting::equations`: see clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod image;
@@ -10,4 +10,4 @@ mod surface;
 
 pub use image::Image;
 pub use interpolation::{Interpolation, PolygonCorner};
-pub use oracle::{ColorRange, Mode, Nearest, Oracle, OracleError, Possible, Seen, Stopped};
+pub use oracle::{ColorRange, Mode, Nearest, Oracle, OracleError, Possible, Probe, Stopped};

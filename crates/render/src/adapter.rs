@@ -11,16 +11,16 @@ use halfway_frame::error::RenderError;
 /// [`Gpu`] or [`Cpu`].
 #[derive(Clone)]
 pub enum Adapter {
-    /// A graphics adapter, by its driver; a software one, too.
+    /// A graphics adapter with its driver, hardware or software.
     #[cfg(feature = "wgpu")]
     Gpu(Gpu),
-    /// The CPU by itself.
+    /// The CPU without a driver.
     Cpu(Cpu),
 }
 
 impl Adapter {
     /// The adapter that draws the frames of this world; `None` while none is open.
-    pub fn of(world: &World) -> Option<Self> {
+    pub fn from_world(world: &World) -> Option<Self> {
         #[cfg(feature = "wgpu")]
         if let Some(gpu) = world.get_resource::<Gpu>() {
             return Some(Self::Gpu(gpu.clone()));
@@ -28,7 +28,7 @@ impl Adapter {
         world.get_resource::<Cpu>().cloned().map(Self::Cpu)
     }
 
-    /// Has it draw the frames of this world from the next one on.
+    /// Inserts it into a world, whose frames it draws from the next one on.
     pub fn insert_into(self, world: &mut World) {
         match self {
             #[cfg(feature = "wgpu")]
@@ -41,7 +41,7 @@ impl Adapter {
         }
     }
 
-    /// One line for people: its name, how it is driven, and whether it is software.
+    /// A line of description: its name, its backend, and whether it is software.
     pub fn describe(&self) -> String {
         match self {
             #[cfg(feature = "wgpu")]
@@ -59,7 +59,7 @@ impl Adapter {
         }
     }
 
-    /// Whether what has images or a solid can be lit by an environment.
+    /// Whether objects with images or a solid can be lit by an environment.
     pub fn lights_images_by_environments(&self) -> bool {
         match self {
             #[cfg(feature = "wgpu")]
@@ -80,10 +80,10 @@ impl Adapter {
         }
     }
 
-    /// The bits of the grid within a pixel to which it rounds the places of vertices.
+    /// The bits of the sub-pixel grid that it snaps vertices to.
     ///
     /// # Errors
-    /// [`RenderError::Device`] when the device fails by which they are measured.
+    /// [`RenderError::Device`] if the device fails while they are measured.
     pub fn sub_pixel_bits(&self) -> Result<u32, RenderError> {
         match self {
             #[cfg(feature = "wgpu")]
@@ -92,7 +92,7 @@ impl Adapter {
         }
     }
 
-    /// Waits until it has finished what it was given.
+    /// Waits until it has finished all submitted work.
     ///
     /// # Errors
     /// [`RenderError::DeviceLost`] or [`RenderError::Device`].
@@ -100,7 +100,7 @@ impl Adapter {
         match self {
             #[cfg(feature = "wgpu")]
             Self::Gpu(gpu) => gpu.poll(wgpu::PollType::wait_indefinitely()),
-            // A frame that it draws is finished.
+            // The CPU has finished a frame once it returns.
             Self::Cpu(_) => Ok(()),
         }
     }

@@ -1,4 +1,4 @@
-//! Which adapter to draw with.
+//! The choice of the adapter.
 
 use crate::adapter::Adapter;
 use crate::cpu::device::Cpu;
@@ -12,12 +12,12 @@ use halfway_frame::error::RenderError;
 ///
 /// 1. the name here;
 /// 2. the environment variable `HALFWAY_ADAPTER`, a name as here;
-/// 3. wgpu's variables `WGPU_BACKEND`, the backends to ask (`vulkan`, `gl`, `metal`, `dx12`; several with commas), and
-///    `WGPU_ADAPTER_NAME`, a name of a graphics adapter as here;
+/// 3. wgpu's variables `WGPU_BACKEND`, the allowed backends (`vulkan`, `gl`, `metal`, `dx12`; several separated by
+///    commas), and `WGPU_ADAPTER_NAME`, a name of a graphics adapter as here;
 /// 4. `VK_DRIVER_FILES`, or `VK_ICD_FILENAMES`, which name drivers: an adapter of theirs, also a software one;
-/// 5. nothing: a hardware adapter of Vulkan, Metal or DirectX 12; where none of these answers, one of OpenGL; and where
-///    there is no hardware, the CPU, which is faster than software drivers. On Linux drivers are asked only where the
-///    kernel shows a graphics card (`/dev/dri/renderD128`, say).
+/// 5. otherwise: a hardware adapter of Vulkan, Metal or DirectX 12; without one, a hardware adapter of OpenGL; without
+///    hardware, the CPU, which is faster than software drivers. On Linux drivers are loaded only if the kernel lists a
+///    graphics card (such as `/dev/dri/renderD128`).
 ///
 /// The name `cpu` stands for the CPU without a driver ([`Cpu`]), `cpu:avx512`, `cpu:avx2`, `cpu:neon` and `cpu:plain`
 /// for the CPU with these vectors. The name `gpu` stands for any graphics adapter, hardware first, else a software one;
@@ -25,9 +25,9 @@ use halfway_frame::error::RenderError;
 ///
 /// Any other name is a part, in upper or lower case, of the adapter's name or of its backend's (`vulkan`, `metal`,
 /// `dx12`, `gl` or `opengl`), or both with a colon between: `vulkan:llvmpipe`, `gl:llvmpipe`. The name of a backend in
-/// full stands for the backend only. Of several adapters that fit, hardware goes before software. `VK_DRIVER_FILES`
-/// says which Vulkan drivers there are to choose from, whatever names them. OpenGL is asked only where the name can
-/// mean it and nothing of the others fits: asking it takes time.
+/// full stands for the backend only. If several adapters match, hardware is preferred to software. `VK_DRIVER_FILES`
+/// limits the Vulkan drivers in every case. OpenGL is asked only if the name may refer to it and no other adapter
+/// matches, since that takes time.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct AdapterChoice {
     /// The name. Default `None`: the environment's, or none.
@@ -62,11 +62,11 @@ impl AdapterChoice {
         }
     }
 
-    /// All adapters that there are, or that `WGPU_BACKEND` allows, and the CPU, a line each; the one that would be
-    /// opened comes first. OpenGL is asked, too.
+    /// All adapters, or those that `WGPU_BACKEND` allows, and the CPU, a line each; the one that would be opened comes
+    /// first. OpenGL is asked, too.
     ///
     /// # Errors
-    /// As [`open`](Self::open) where the adapter that would be opened is not there.
+    /// Those of [`open`](Self::open) if the adapter that would be opened is missing.
     pub fn list(&self) -> Result<Vec<String>, RenderError> {
         match self.open_cpu(variable) {
             Some(cpu) => self.list_after(cpu?.describe()),
@@ -90,7 +90,7 @@ impl AdapterChoice {
     }
 }
 
-/// Without wgpu, the CPU is all there is.
+/// Without wgpu, the CPU is the only adapter.
 #[cfg(not(feature = "wgpu"))]
 impl AdapterChoice {
     fn open_other(&self) -> Result<Adapter, RenderError> {

@@ -22,7 +22,7 @@ impl Default for Headless {
     }
 }
 
-/// Sets the size of the frame's picture: that of the window that the CPU draws for, or of the headless picture.
+/// Sets the size of the frame's picture: that of the CPU's window, or of the headless picture.
 pub(crate) fn measure(
     headless: Res<Headless>,
     canvas: Option<Res<CanvasTarget>>,

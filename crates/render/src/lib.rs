@@ -1,10 +1,9 @@
 #![doc = include_str!("../README.md")]
 //!
-//! [`RenderPlugin`] adds the way of a frame, [`RenderSet`] by [`RenderSet`], to a schedule of any
-//! `bevy_app` App. The target is a texture ([`Headless`]) unless a window brings a surface
-//! ([`SurfaceTarget`]) or an engine a texture of its own ([`TextureTarget`]). [`FrameReport`] counts what a frame did
-//! and holds what it could not do;
-//! [`FrameTimes`] says where its time went on the CPU, and [`GpuTimer`] how much of it the GPU took.
+//! [`RenderPlugin`] adds the stages of a frame, [`RenderSet`] by [`RenderSet`], to a schedule of any `bevy_app` App.
+//! The target is a texture ([`Headless`]) unless a window brings a surface ([`SurfaceTarget`]) or an engine a texture
+//! of its own ([`TextureTarget`]). [`FrameReport`] counts the work of a frame and holds its errors; [`FrameTimes`] has
+//! its CPU times, and [`GpuTimer`] its GPU time.
 
 mod adapter;
 mod choice;
@@ -12,11 +11,11 @@ mod cpu;
 #[cfg(feature = "wgpu")]
 mod gpu;
 mod headless;
+mod logged;
 mod pending;
 mod picture;
 mod plugin;
 mod replaced;
-mod told;
 
 pub use adapter::Adapter;
 pub use choice::AdapterChoice;
@@ -49,6 +48,6 @@ pub use headless::Headless;
 pub use pending::{PendingPicture, render_picture, take_picture};
 pub use picture::{Picture, Pixels};
 pub use plugin::RenderPlugin;
-/// The wgpu that the renderer speaks; surfaces are made with it.
+/// The renderer's version of wgpu, which surfaces have to use.
 #[cfg(feature = "wgpu")]
 pub use wgpu;

@@ -1,4 +1,4 @@
-//! Pictures on their way from the adapter that draws them.
+//! Pictures that are being read back from the adapter.
 
 use crate::cpu::canvas::{Canvas, CanvasTarget};
 #[cfg(feature = "wgpu")]
@@ -11,15 +11,15 @@ use halfway_frame::error::RenderError;
 use halfway_frame::report::FrameReport;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A picture on its way from what has drawn it. Poll it with [`PendingPicture::try_take`] while other frames
-/// are drawn, or wait for it with [`PendingPicture::wait`].
+/// A picture that is being read back. Poll it with [`PendingPicture::try_take`] while other frames are drawn, or wait
+/// for it with [`PendingPicture::wait`].
 pub struct PendingPicture(Pending);
 
 enum Pending {
     /// The GPU copies it.
     #[cfg(feature = "wgpu")]
     Copied(ReadBack),
-    /// The CPU has drawn it; until it is taken.
+    /// The CPU has drawn it; `None` once it is taken.
     There(Option<Picture>),
 }
 
@@ -31,7 +31,7 @@ impl PendingPicture {
     ///
     /// # Errors
     /// [`RenderError::NoPicture`] before the first headless frame or while a window is the target;
-    /// [`RenderError::TooLarge`] or [`RenderError::Memory`] where there is no room for the copy.
+    /// [`RenderError::TooLarge`] or [`RenderError::Memory`] if there is no memory for the copy.
     pub fn request(world: &World) -> Result<Self, RenderError> {
         let picture = Self::of_newest_frame(world)?;
         if let Some(age) = world.get_resource::<PictureAge>() {
@@ -51,7 +51,7 @@ impl PendingPicture {
         Ok(Self(Pending::There(Some(picture))))
     }
 
-    /// The picture if it has arrived; `None` while it has not, and after it was taken.
+    /// The picture if it has arrived; `None` before, and after it was taken.
     ///
     /// # Errors
     /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way.
@@ -67,7 +67,7 @@ impl PendingPicture {
     ///
     /// # Errors
     /// [`RenderError::DeviceLost`] or [`RenderError::Device`] when the device was lost or failed on the way;
-    /// [`RenderError::NoPicture`] where it was taken.
+    /// [`RenderError::NoPicture`] if it was taken.
     pub fn wait(self) -> Result<Picture, RenderError> {
         match self.0 {
             #[cfg(feature = "wgpu")]
@@ -78,8 +78,8 @@ impl PendingPicture {
 }
 
 /// Runs one frame of `app` ([`App::update`]) and waits for its picture: systems run and time passes. [`take_picture`]
-/// draws the world as it is. Everything the frame could not do is an error here: the first of
-/// [`FrameReport::errors`].
+/// draws the world as it is. Every problem of the frame is an error here: the first of [`FrameReport::errors`] is
+/// returned.
 ///
 /// # Errors
 /// The frame's first error, or why its picture could not be read back.
@@ -137,7 +137,7 @@ pub(crate) struct DrawnIn(pub(crate) InternedScheduleLabel);
 #[derive(Resource, Default)]
 pub(crate) struct PictureAge {
     is_a_frame_old: bool,
-    is_told: AtomicBool,
+    is_logged: AtomicBool,
 }
 
 impl PictureAge {
@@ -153,7 +153,7 @@ impl PictureAge {
 
     /// Logs once that a picture is asked for that is a frame old.
     fn tell(&self) {
-        if self.is_a_frame_old && !self.is_told.swap(true, Ordering::Relaxed) {
+        if self.is_a_frame_old && !self.is_logged.swap(true, Ordering::Relaxed) {
             log::warn!(
                 "the picture is a frame old: it is asked for before the frame of this update is drawn; ask after \
                  `RenderSet::Deliver`, or after the update"
@@ -179,7 +179,7 @@ mod tests {
     use halfway_lighting::Camera;
 
     #[test]
-    fn a_picture_that_is_a_frame_old_is_told() {
+    fn a_picture_that_is_a_frame_old_is_logged() {
         fn ask(world: &mut World) {
             // There is none before the first frame.
             let _ = PendingPicture::request(world);
@@ -189,14 +189,14 @@ mod tests {
             .insert_resource(Headless { size: UVec2::new(8, 6), ..Headless::default() })
             .insert_resource(AdapterChoice::cpu());
         app.world_mut().spawn(Camera::default());
-        let told = |app: &App| app.world().resource::<PictureAge>().is_told.load(Ordering::Relaxed);
+        let logged = |app: &App| app.world().resource::<PictureAge>().is_logged.load(Ordering::Relaxed);
         for _ in 0..2 {
             render_picture(&mut app).expect("a picture");
             take_picture(app.world_mut()).expect("a picture");
         }
-        assert!(!told(&app));
+        assert!(!logged(&app));
         app.add_systems(Update, ask);
         app.update();
-        assert!(told(&app));
+        assert!(logged(&app));
     }
 }

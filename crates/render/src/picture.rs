@@ -9,7 +9,7 @@ use image::{Rgba32FImage, RgbaImage};
 /// The values of a pixel of a headless picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pixels {
-    /// 8 bits a channel, encoded as the camera says.
+    /// 8 bits a channel, in the camera's encoding.
     #[default]
     Byte,
     /// Linear I in 32-bit floating point; not clamped, but after a policy that acts on the finished picture. An adapter
@@ -22,7 +22,7 @@ pub enum Pixels {
 /// A picture, top row first.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Picture {
-    /// 8 bits a channel, encoded as the camera says.
+    /// 8 bits a channel, in the camera's encoding.
     Byte(RgbaImage),
     /// Linear I, as [`Pixels::Float`] has it.
     Float(Rgba32FImage),

@@ -1,4 +1,4 @@
-//! The plugin and the way of one frame.
+//! The plugin and the stages of a frame.
 
 use crate::choice::AdapterChoice;
 use crate::cpu;
@@ -6,9 +6,9 @@ use crate::cpu::device::Cpu;
 #[cfg(feature = "wgpu")]
 use crate::gpu::{self, device::Gpu};
 use crate::headless::{self, Headless};
+use crate::logged::{self, Logged};
 use crate::pending::{DrawnIn, PictureAge};
 use crate::replaced;
-use crate::told::{self, Told};
 use bevy_app::{App, First, Plugin, PostUpdate};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
@@ -19,9 +19,9 @@ use halfway_frame::{FramePlugin, ReadCamera};
 /// Draws every entity with a [`Mesh3d`](halfway_mesh::Mesh3d) through the world's [`Camera`](halfway_lighting::Camera), once a run of its
 /// schedule.
 ///
-/// Needs `GlobalTransform`s to be current: it runs after `TransformSystems::Propagate` where that set
-/// is in the same schedule, and an App with a schedule of its own propagates before. Where nothing propagates them, the
-/// frame is not drawn, and [`FrameReport::errors`] says so.
+/// Needs current `GlobalTransform`s: it runs after `TransformSystems::Propagate` if that set is in the same schedule,
+/// and an App with a schedule of its own propagates before. If no system propagates them, the frame is not drawn, and
+/// [`FrameReport::errors`] says so.
 ///
 /// Each error of a frame is logged once by the `log` crate (target `halfway_render::errors`; a window says them
 /// itself), and so is each warning: an opacity that is not shown without
@@ -48,7 +48,7 @@ impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins(FramePlugin { schedule: self.schedule })
             .insert_resource(DrawnIn(self.schedule))
-            .init_resource::<Told>()
+            .init_resource::<Logged>()
             .init_resource::<PictureAge>()
             .add_systems(First, PictureAge::grow)
             .add_systems(self.schedule, PictureAge::renew.in_set(RenderSet::Deliver))
@@ -59,7 +59,11 @@ impl Plugin for RenderPlugin {
                 (
                     headless::measure.in_set(RenderSet::View).before(ReadCamera),
                     (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
-                    (told::tell_errors, told::tell_of_opacity, told::tell_why_empty.run_if(told::may_be_empty))
+                    (
+                        logged::log_errors,
+                        logged::log_ineffective_opacity,
+                        logged::log_why_empty.run_if(logged::may_be_empty),
+                    )
                         .chain()
                         .after(RenderSet::Deliver),
                 ),
@@ -70,8 +74,8 @@ impl Plugin for RenderPlugin {
     }
 }
 
-/// Opens an adapter for headless pictures unless one is open. What fails is in the report, every frame anew, so that an
-/// adapter that appears later is found. A device that is lost is replaced once a report has said so.
+/// Opens an adapter for headless pictures unless one is open. A failure is reported and retried in every frame, so that
+/// an adapter that appears later is found. A lost device is replaced after its loss was reported.
 fn open(world: &mut World) {
     #[cfg(feature = "wgpu")]
     if let Some(gpu) = world.get_resource::<Gpu>().cloned() {

@@ -1,4 +1,4 @@
-//! A change of drawer: what belonged to the one before is forgotten.
+//! A change of the adapter: drops all state of the previous one.
 
 use crate::cpu::canvas::Canvas;
 use crate::cpu::device::Cpu;
@@ -9,7 +9,7 @@ use bevy_ecs::prelude::*;
 use halfway_frame::geometry::meshes::Geometries;
 use halfway_frame::geometry::workshop::Workshop;
 
-/// The drawer of a frame.
+/// The adapter of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum DrawnBy {
     #[cfg(feature = "wgpu")]
@@ -17,9 +17,9 @@ pub(crate) enum DrawnBy {
     Cpu,
 }
 
-/// Forgets all that belongs to the drawer before, once it is another [`Gpu`](crate::Gpu), or the CPU and no GPU: the
-/// frame makes it anew from what the App holds. What belongs to a device is held nowhere else, but for a window's
-/// surface, which knows its device, and for pictures that are still on their way.
+/// Drops all state of the previous adapter, after a change to another [`Gpu`](crate::Gpu) or to the CPU: the frame
+/// rebuilds it from the App's data. No other place holds state of a device, except a window's surface, which knows its
+/// device, and pending pictures.
 pub(crate) fn forget(
     cpu: Option<Res<Cpu>>,
     #[cfg(feature = "wgpu")] gpu: Option<Res<Gpu>>,
@@ -36,7 +36,7 @@ pub(crate) fn forget(
         return;
     }
     workshop.cut = if draws == Some(DrawnBy::Cpu) { Some(mesh_pieces::of_levels) } else { None };
-    // Their triangles have been taken.
+    // Their triangles were moved out.
     geometries.forget_all();
     *pieces = MeshPieces::default();
     *canvas = Canvas::default();

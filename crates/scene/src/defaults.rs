@@ -10,7 +10,7 @@ use crate::view::CameraEntry;
 const AZIMUTH: f64 = std::f64::consts::PI / 6.0;
 const ELEVATION: f64 = std::f64::consts::PI / 9.0;
 
-/// How much farther away than necessary a framing camera stands, so that nothing touches the picture's edge.
+/// The factor by which a framing camera is farther away than necessary, so that nothing touches the picture's edge.
 const MARGIN: f64 = 1.12;
 
 /// A camera that sees all of `points` (the vertices of the objects, or corners of boxes around them), from the front, a
@@ -45,8 +45,8 @@ pub fn framing_camera(points: impl IntoIterator<Item = Vec3>, aspect: f32) -> Ca
     }
 }
 
-/// How far beside `center` along `axis`, and how far from it along `back`, an eye has to be at least, so that the
-/// points lie within the half angle of this tangent to both sides of its line of sight.
+/// The offset from `center` along `axis`, and the least distance along `back`, of an eye, so that the points lie within
+/// the half angle of this tangent to both sides of its line of sight.
 ///
 /// A point (x, z) is inside when |x − c| ≤ (d − z)·tan, that is, when c + d·tan is at least x + z·tan and d·tan − c at
 /// least z·tan − x. The largest of each over all points decides, and half their sum is the least d·tan.
@@ -94,7 +94,7 @@ mod tests {
     use crate::check::Limits;
     use crate::entry::Entry;
 
-    /// Where a point is in the picture, ±1 at its edges.
+    /// The position of a point in the picture, ±1 at its edges.
     fn in_picture(camera: &CameraEntry, aspect: f32, p: Vec3) -> (f64, f64) {
         let [right, up, back] = camera.axes().unwrap();
         let p = p.as_dvec3() - Vec3::from(camera.position).as_dvec3();

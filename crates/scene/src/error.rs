@@ -53,7 +53,7 @@ pub enum SceneError {
     /// A place in the text is not JSON, not a key of the format, or not a value that the key takes.
     #[error("{origin}:{line}:{column}: {}{message}", named(key))]
     Text {
-        /// Where the text came from: a file's name, as it was given.
+        /// The origin of the text: a file's name, as it was given.
         origin: String,
         /// The line, counted from 1.
         line: usize,

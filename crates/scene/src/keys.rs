@@ -33,7 +33,7 @@ pub(crate) trait Keys: Clone + PartialEq + 'static {
     fn word(&self) -> Option<&str> {
         Self::WORDS.iter().find(|(_, value, _)| value == self).map(|(word, ..)| *word)
     }
-    /// The value of an object without keys. Those that are required have values that nobody sees.
+    /// The value of an object without keys. The values of required keys are placeholders.
     fn blank() -> Self;
     /// Passes every key and its value to a visitor; words have none.
     fn visit<V: Visit>(&self, _visitor: &mut V) -> Result<(), V::Error> {

@@ -43,7 +43,7 @@ impl Object for MapsEntry {
             return Err(KeyProblem::new("height", "stands beside `normal`; expected one of them"));
         }
         // A relief may have any amount.
-        let mut shares = self.iter().filter(|(kind, _)| !kind.is_relief());
+        let mut shares = self.iter().filter(|(kind, _)| !kind.perturbs_normals());
         shares.try_for_each(|(kind, entry)| in_range("amount", entry.amount, Range::UNIT).within(kind.name()))
     }
 }

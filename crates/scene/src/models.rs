@@ -221,7 +221,7 @@ impl<'a> Shapes<'a> {
             uv_set: if source.uv_set == 0 { UvSet::First } else { UvSet::Second },
             transform,
             channel: channel(source, kind, texture),
-            amount: if kind.is_relief() { source.amount } else { source.amount.clamp(0.0, 1.0) },
+            amount: if kind.perturbs_normals() { source.amount } else { source.amount.clamp(0.0, 1.0) },
             far_normals: FarNormals::Mean,
         };
         Some(ModelMap { kind, texture: texture.clone(), map })

@@ -7,8 +7,8 @@ use crate::keys::Object;
 
 /// The JSON schema (draft 2020-12) of scene files, as indented text.
 ///
-/// It is made of the tables from which the files are read, and stands in `docs/scene.schema.json`. What a schema cannot
-/// say (an `attach` needs its object, a cutoff is at most 90 or 180) is checked when a file is read.
+/// It comes from the same tables as the parser, and is stored in `docs/scene.schema.json`. Rules that a schema cannot
+/// express (an `attach` needs its object, a cutoff is at most 90 or 180) are checked when a file is read.
 pub fn json_schema() -> String {
     let mut definitions = Map::new();
     let mut schema = SceneFile::definition(&mut definitions);

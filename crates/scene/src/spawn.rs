@@ -52,8 +52,8 @@ pub struct Spawned {
 /// - Where the scene has no camera, one is made that frames all objects ([`framing_camera`]).
 /// - Where an object has no material, its model's own materials are used, translated by
 ///   [`import`](crate::import), with their double-sidedness, blending and masks unless the object says otherwise.
-/// - With a model's own materials come their images, where the world has `Assets<Texture>`. What cannot be read is a
-///   warning, and a checker in its place.
+/// - With a model's own materials come their images, where the world has `Assets<Texture>`. An image that cannot be
+///   read gives a warning and is replaced by a checker.
 /// - Where the scene has no `lights`, the models' own lights shine (`KHR_lights_punctual`), attached to their object;
 ///   where there are none either, the [`default_lights`]. An empty list of lights is a list: nothing shines.
 /// - A transform that shears becomes a parent and a child, since a `Transform` cannot hold it.

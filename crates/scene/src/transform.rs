@@ -1,4 +1,4 @@
-//! Where something is, as a scene file says it.
+//! Transforms in scene files.
 
 use bevy_math::{DVec4, Mat4, Quat, Vec3};
 use serde_json::{Map, Value, json};
@@ -53,7 +53,7 @@ impl Object for TransformParts {
 }
 
 impl TransformParts {
-    /// How far from 1 the length of a rotation may be: that of one printed with two digits still is not.
+    /// The allowed distance of a rotation's length from 1: that of one printed with two digits is within it.
     const ROTATION_SLACK: f64 = 0.02;
 }
 

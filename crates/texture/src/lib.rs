@@ -1,5 +1,5 @@
 #![doc = include_str!("../README.md")]
-// Powers and logarithms only by libm: see clippy.toml.
+// Powers and logarithms are computed only by libm: see clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod decode;

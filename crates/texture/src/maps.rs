@@ -42,7 +42,7 @@ impl From<TexelImage> for Texture {
     }
 }
 
-/// The property of a surface that an image modulates.
+/// The kind of an image on a surface: the property that it modulates.
 ///
 /// t is the filtered value of the texels, clamped to 0 … 1; where it is one number, of [`SurfaceMap::channel`]. Images
 /// that multiply do so by 1 + a·(t − 1), a being [`SurfaceMap::amount`].
@@ -108,8 +108,8 @@ impl MapKind {
         }
     }
 
-    /// Whether it perturbs normals rather than multiplying.
-    pub fn is_relief(self) -> bool {
+    /// Whether it perturbs normals instead of multiplying a property.
+    pub fn perturbs_normals(self) -> bool {
         matches!(self, Self::Normal | Self::Height)
     }
 }
@@ -161,7 +161,7 @@ impl SurfaceMap {
             return Some(WrongMap { kind, field, value, expected: "finite numbers" });
         }
         let amount = self.amount;
-        let (is_right, expected) = if kind.is_relief() {
+        let (is_right, expected) = if kind.perturbs_normals() {
             (amount.is_finite(), "a finite number")
         } else {
             ((0.0..=1.0).contains(&amount), "0 to 1")

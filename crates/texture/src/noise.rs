@@ -8,7 +8,7 @@
 //!
 //! let p = [0.3_f64, 1.7, 2.2];
 //! assert!((0.0..=1.0).contains(&marble(p, 5, 0.01)));
-//! // Seen from afar, all that is left is the mean.
+//! // From afar only the mean remains.
 //! assert_eq!((fractal(p, 5, 10.0), checker(p, [1000.0; 3])), (0.0, 0.5));
 //! ```
 
@@ -39,7 +39,7 @@ pub fn gradient_noise<T: Number>(p: [T; 3]) -> T {
     let corner = |k: usize| {
         let offset = [k & 1, k >> 1 & 1, k >> 2];
         let [h, ..] = hash(std::array::from_fn(|axis| cell[axis].wrapping_add(offset[axis] as u32)));
-        let d: [T; 3] = std::array::from_fn(|axis| f[axis] - T::of(offset[axis] as f64));
+        let d: [T; 3] = std::array::from_fn(|axis| f[axis] - T::from_f64(offset[axis] as f64));
         toward(h >> 28, d)
     };
     let [s, t, r] = f.map(faded_in);
@@ -61,7 +61,7 @@ fn toward<T: Number>(number: u32, [x, y, z]: [T; 3]) -> T {
 }
 
 fn faded_in<T: Number>(t: T) -> T {
-    t * t * t * (t * (t * T::of(6.0) - T::of(15.0)) + T::of(10.0))
+    t * t * t * (t * (t * T::from_f64(6.0) - T::from_f64(15.0)) + T::from_f64(10.0))
 }
 
 /// The cell of a point, modulo 2³²; `None` if it is not finite.
@@ -70,31 +70,31 @@ fn whole<T: Number>(floor: [T; 3]) -> Option<[u32; 3]> {
     Some([of(floor[0])?, of(floor[1])?, of(floor[2])?])
 }
 
-/// The fraction of noise that is left under a footprint of this width, in its cells: all up to ¼, nothing from ¾ on,
-/// 3t² − 2t³ between (Ebert et al., *Texturing and Modeling*, 2003, on fading before aliasing).
-pub fn left<T: Number>(width: T) -> T {
-    let t = ((width - T::of(0.25)) * T::of(2.0)).max(T::zero()).min(T::one());
-    T::one() - t * t * (T::of(3.0) - T::of(2.0) * t)
+/// The fraction of noise that remains under a footprint of this width, in its cells: all up to ¼, none from ¾ on,
+/// falling by 3t² − 2t³ between (Ebert et al., *Texturing and Modeling*, 2003, on fading before aliasing).
+pub fn fade<T: Number>(width: T) -> T {
+    let t = ((width - T::from_f64(0.25)) * T::from_f64(2.0)).max(T::zero()).min(T::one());
+    T::one() - t * t * (T::from_f64(3.0) - T::from_f64(2.0) * t)
 }
 
 /// The most octaves of a sum.
 pub const MOST_OCTAVES: u32 = 16;
 
-/// A fractal sum: Σ 2⁻ᵏ·noise(2ᵏ·p) over `octaves` octaves, at most [`MOST_OCTAVES`], each faded by [`left`] of
+/// A fractal sum: Σ 2⁻ᵏ·noise(2ᵏ·p) over `octaves` octaves, at most [`MOST_OCTAVES`], each faded by [`fade`] of
 /// 2ᵏ·`width`; octaves that have vanished are not evaluated. About −1 to 1, and within −2.08 to 2.08.
 pub fn fractal<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
     let (mut sum, mut frequency, mut amplitude) = (T::zero(), T::one(), T::one());
     for octave in 0..octaves.min(MOST_OCTAVES) {
-        let weight = left(frequency * width.abs());
+        let weight = fade(frequency * width.abs());
         // NaN counts as vanished.
         if weight.is_nan() || weight <= T::zero() {
             break;
         }
         // Octaves with the same origin would all be 0 there.
-        let offset = T::of(f64::from(octave) * 0.37);
+        let offset = T::from_f64(f64::from(octave) * 0.37);
         sum = sum + weight * amplitude * gradient_noise(p.map(|x| x * frequency + offset));
         frequency = frequency + frequency;
-        amplitude = T::of(0.5) * amplitude;
+        amplitude = T::from_f64(0.5) * amplitude;
     }
     sum
 }
@@ -107,25 +107,25 @@ pub fn marble<T: Number>(p: [T; 3], octaves: u32, width: T) -> T {
 
 /// Wood: rings around the y axis, one a unit, made uneven by noise that is ten times as long along the axis. 0 to 1.
 pub fn wood<T: Number>([x, y, z]: [T; 3], width: T) -> T {
-    let grain = gradient_noise([x, y * T::of(0.1), z]) * T::of(0.3) * left(width.abs());
+    let grain = gradient_noise([x, y * T::from_f64(0.1), z]) * T::from_f64(0.3) * fade(width.abs());
     wave((x * x + z * z).sqrt() + grain, width)
 }
 
 /// ½ + ½ sin 2πt under a footprint of width w: times sin(πw)/(πw), the mean of a wave over a box, up to its first 0 at
 /// w = 1.
 fn wave<T: Number>(t: T, width: T) -> T {
-    let half = T::of(0.5);
-    let angle = T::of(std::f64::consts::PI) * width.abs();
+    let half = T::from_f64(0.5);
+    let angle = T::from_f64(std::f64::consts::PI) * width.abs();
     let contrast = if width.is_nan() || width.abs() >= T::one() {
         T::zero()
-    } else if angle > T::of(1e-3) {
+    } else if angle > T::from_f64(1e-3) {
         angle.sine() / angle
     } else {
         T::one()
     };
     let t = t - t.floor();
     if contrast > T::zero() && t.is_finite() {
-        half + half * contrast * (T::of(std::f64::consts::TAU) * t).sine()
+        half + half * contrast * (T::from_f64(std::f64::consts::TAU) * t).sine()
     } else {
         half
     }
@@ -134,7 +134,7 @@ fn wave<T: Number>(t: T, width: T) -> T {
 /// A checker of cubes of side 1: 0 or 1, or the mean over a box of these widths along the axes, exactly. Widths below
 /// [`LEAST_WIDTH`] count as that, so that a plane just between cubes is ½ everywhere instead of speckled by rounding.
 pub fn checker<T: Number>(p: [T; 3], widths: [T; 3]) -> T {
-    let half = T::of(0.5);
+    let half = T::from_f64(0.5);
     let product = (0..3).fold(T::one(), |product, axis| product * square_wave(p[axis], widths[axis].abs()));
     if product.is_finite() { half - half * product } else { half }
 }
@@ -144,8 +144,8 @@ pub const LEAST_WIDTH: f32 = 1e-3;
 
 /// The mean of a wave over a box: 1 from 0 to 1, −1 from 1 to 2, and so on.
 fn square_wave<T: Number>(x: T, width: T) -> T {
-    let (half, one, two) = (T::of(0.5), T::one(), T::of(2.0));
-    let width = width.max(T::of(LEAST_WIDTH.into()));
+    let (half, one, two) = (T::from_f64(0.5), T::one(), T::from_f64(2.0));
+    let width = width.max(T::from_f64(LEAST_WIDTH.into()));
     let period = |x: T| x - two * (x * half).floor();
     if width <= one {
         // The box contains one step at most; the distance from it is exact where the step is far.

@@ -71,19 +71,19 @@ impl FarNormals {
 ///
 /// A vector that is reflected at the normals turns twice as far as they do: for the exponent of (r·v)^s take 2·s.
 pub fn mean_length<T: Number>(texel: [T; 3], s: T) -> T {
-    let [x, y, z] = texel.map(|number| T::of(2.0) * number - T::one());
+    let [x, y, z] = texel.map(|number| T::from_f64(2.0) * number - T::one());
     let length = (x * x + y * y + z * z).sqrt();
     if length >= T::one() {
         return T::one();
     }
-    length / (length + s * s * (T::one() - length)).max(T::of(f64::from(f32::MIN_POSITIVE)))
+    length / (length + s * s * (T::one() - length)).max(T::from_f64(f64::from(f32::MIN_POSITIVE)))
 }
 
 /// The correction of Toksvig, "Mipmapping Normal Maps", 2005, for a highlight (n·h)^s where the mean of the normals has
 /// this length: the exponent f·s and the factor (1 + f·s)/(1 + s), with f = |n|/(|n| + s(1 − |n|)).
 pub fn toksvig<T: Number>(length: T, exponent: T) -> [T; 2] {
     let length = length.max(T::zero()).min(T::one());
-    let f = length / (length + exponent * (T::one() - length)).max(T::of(f64::from(f32::MIN_POSITIVE)));
+    let f = length / (length + exponent * (T::one() - length)).max(T::from_f64(f64::from(f32::MIN_POSITIVE)));
     [f * exponent, (T::one() + f * exponent) / (T::one() + exponent)]
 }
 
@@ -102,8 +102,8 @@ pub struct SlopeSpread<T> {
 }
 
 impl<T: Number> SlopeSpread<T> {
-    /// The slopes under a footprint, by the filters of [`lookup::filtered`].
-    pub fn seen(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], footprint: [[T; 2]; 2]) -> Self {
+    /// The mean slopes and products under a footprint, by the filters of [`lookup::filtered`].
+    pub fn filtered(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], footprint: [[T; 2]; 2]) -> Self {
         let [slopes, squares] = pyramid.moments();
         let [x, y, ..] = lookup::filtered(slopes, sampling, uv, footprint);
         let [xx, xy, yy, _] = lookup::filtered(squares, sampling, uv, footprint);
@@ -112,7 +112,7 @@ impl<T: Number> SlopeSpread<T> {
 
     /// The normal of the mean slopes, encoded as in texels, but not normalized: (x, y, 1)/2 + ½.
     pub fn texel(&self) -> [T; 3] {
-        let [x, y] = self.mean.map(|slope| T::of(0.5) * slope + T::of(0.5));
+        let [x, y] = self.mean.map(|slope| T::from_f64(0.5) * slope + T::from_f64(0.5));
         [x, y, T::one()]
     }
 
@@ -125,7 +125,7 @@ impl<T: Number> SlopeSpread<T> {
 /// The covariance of slopes that are `s` times as steep, from the mean slopes and the means of their products: of x
 /// with x, of x with y, of y with y. `s` is clamped to 10⁶, so that all of it is finite.
 pub fn slope_covariance<T: Number>([x, y]: [T; 2], [xx, xy, yy]: [T; 3], s: T) -> [T; 3] {
-    let s = s.max(T::of(-1e6)).min(T::of(1e6));
+    let s = s.max(T::from_f64(-1e6)).min(T::from_f64(1e6));
     let [xx, yy] = [xx - x * x, yy - y * y].map(|variance| variance.max(T::zero()));
     [xx, xy - x * y, yy].map(|number| s * s * number)
 }
@@ -133,7 +133,7 @@ pub fn slope_covariance<T: Number>([x, y]: [T; 2], [xx, xy, yy]: [T; 3], s: T) -
 /// The length of the mean of normals whose slopes have this covariance, as [`toksvig`] takes it: 1/(1 + ½ tr Σ). Used
 /// by isotropic highlights.
 pub fn spread_length<T: Number>([xx, _, yy]: [T; 3]) -> T {
-    (T::one() + T::of(0.5) * (xx + yy)).recip()
+    (T::one() + T::from_f64(0.5) * (xx + yy)).recip()
 }
 
 /// The lobe of a highlight (n·h)^s over normals whose slopes have this covariance Σ. Its width is Σ + I/s, whose
@@ -143,7 +143,7 @@ pub fn spread_length<T: Number>([xx, _, yy]: [T; 3]) -> T {
 /// directions.
 pub fn lean_lobe<T: Number>(covariance: [T; 3], s: T) -> [T; 4] {
     // Of s·Σ + I, which is finite for each s; clamped to the range of squares of f32.
-    let [xx, xy, yy] = covariance.map(|number| (s * number).max(T::of(-1e12)).min(T::of(1e12)));
+    let [xx, xy, yy] = covariance.map(|number| (s * number).max(T::from_f64(-1e12)).min(T::from_f64(1e12)));
     let [xx, yy] = [xx + T::one(), yy + T::one()];
     // Filters with negative weights may leave no valid covariance; the determinant of a valid one is not less.
     let determinant = (xx * yy - xy * xy).max(xx + yy - T::one());

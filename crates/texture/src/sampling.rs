@@ -1,6 +1,6 @@
 //! Filter settings of an image.
 
-/// The continuation beyond an image.
+/// How an image continues beyond its edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Wrap {
     /// Repeats the image.
@@ -124,7 +124,7 @@ pub enum ImageForm {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Sampling {
-    /// The continuation beyond the image along u, and along v.
+    /// How the image continues along u, and along v.
     pub wrap: [Wrap; 2],
     /// The filter where D ≤ 0.
     pub magnify: TexelFilter,

@@ -99,7 +99,7 @@ impl SolidTexture {
         Self { kind, colors, ..Self::default() }
     }
 
-    /// With `cells` cells in place of one, along each axis: larger numbers make finer patterns.
+    /// The same with `cells` times as many cells along each axis: larger numbers make finer patterns.
     #[must_use]
     pub fn scaled(mut self, cells: f32) -> Self {
         for number in self.solid_from_object.iter_mut().flatten() {
@@ -108,14 +108,14 @@ impl SolidTexture {
         self
     }
 
-    /// With this map from the object's space to the solid's, by the columns of a matrix whose last row is 0, 0, 0, 1,
-    /// as `Mat4::to_cols_array_2d` gives them.
+    /// The same with another map from the object's space to the solid's: the columns of a matrix whose last row is 0,
+    /// 0, 0, 1, as given by `Mat4::to_cols_array_2d`.
     #[must_use]
     pub fn placed(self, columns: [[f32; 4]; 4]) -> Self {
         Self { solid_from_object: [0, 1, 2].map(|row| columns.map(|column| column[row])), ..self }
     }
 
-    /// With so many octaves.
+    /// The same with another number of octaves.
     #[must_use]
     pub fn with_octaves(self, octaves: u32) -> Self {
         Self { octaves, ..self }
@@ -137,19 +137,19 @@ impl SolidTexture {
     /// The factor of the ambient and the diffuse reflectance at a point of the object; `ways` are its derivatives along
     /// x and along y of the picture.
     pub fn color_at<T: Number>(&self, p: [T; 3], ways: [[T; 3]; 2]) -> [T; 3] {
-        let rows = self.solid_from_object.map(|row| row.map(|number| T::of(number.into())));
+        let rows = self.solid_from_object.map(|row| row.map(|number| T::from_f64(number.into())));
         let turned = |v: [T; 3]| rows.map(|[a, b, c, _]| a * v[0] + b * v[1] + c * v[2]);
         let moved = turned(p);
         let q = [0, 1, 2].map(|axis| moved[axis] + rows[axis][3]);
         let t = solid_value(self.kind, self.octaves, q, ways.map(turned));
-        let [first, second] = self.colors.map(|color| color.map(|channel| T::of(channel.into())));
+        let [first, second] = self.colors.map(|color| color.map(|channel| T::from_f64(channel.into())));
         [0, 1, 2].map(|c| first[c] + t * (second[c] - first[c]))
     }
 }
 
 /// t at a point of a solid with these derivatives along x and along y of the picture; see the [module](crate::solid).
 pub fn solid_value<T: Number>(kind: SolidKind, octaves: u32, q: [T; 3], [x, y]: [[T; 3]; 2]) -> T {
-    let half = T::of(0.5);
+    let half = T::from_f64(0.5);
     let squared = |v: [T; 3]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     let width = squared(x).max(squared(y)).sqrt();
     match kind {

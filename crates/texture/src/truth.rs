@@ -165,7 +165,7 @@ impl FootprintTruth {
             .map(|k| (corners[k][0] - corners[(k + 1) % 4][0]).abs() + (corners[k][1] - corners[(k + 1) % 4][1]).abs())
             .sum();
         if area.abs() <= 1e-12 * perimeter * perimeter || area == 0.0 {
-            // Seen edge on: a line, represented by its middle.
+            // Seen edge-on it is a line, represented by its middle.
             let middle: [f64; 2] = std::array::from_fn(|axis| corners.iter().map(|c| c[axis]).sum::<f64>() / 4.0);
             return self.value(wrap, middle);
         }

@@ -1,4 +1,4 @@
-//! How a window shows what the CPU has drawn: a buffer of the window system's, without a graphics driver.
+//! Shows the CPU's pictures in a window: a buffer of the window system, without a graphics driver.
 
 use crate::error::WindowError;
 use bevy_math::UVec2;
@@ -11,7 +11,7 @@ use winit::window::Window;
 /// The buffer of a window.
 pub(crate) struct WindowBuffer {
     surface: Surface<OwnedDisplayHandle, Arc<Window>>,
-    /// The size it has been given.
+    /// Its current size.
     size: UVec2,
 }
 

@@ -1,4 +1,4 @@
-//! Whether there is a display.
+//! Detects a display.
 
 /// Whether the environment names a display to open a window on. True where displays have no names
 /// (macOS, Windows); whether the named one answers shows only when a window is opened.

@@ -1,4 +1,4 @@
-//! Why there is no window.
+//! Errors of opening a window.
 
 use bevy_app::AppExit;
 use halfway_render::RenderError;
@@ -28,7 +28,7 @@ pub(crate) enum WindowError {
 }
 
 impl WindowError {
-    /// 3 where there is nothing to draw with or no display to draw on, else 1.
+    /// The exit code: 3 without an adapter or a display, else 1.
     pub(crate) fn exit(&self) -> AppExit {
         use RenderError as E;
         let missing = matches!(
@@ -47,7 +47,7 @@ impl WindowError {
     }
 }
 
-/// The display's message, without the place in winit's source where winit learnt it.
+/// The display's message, without the line of winit's source that winit appends.
 pub(crate) fn reason(error: &impl ToString) -> String {
     let text = error.to_string();
     match text.strip_prefix("os error at ").and_then(|rest| rest.split_once(": ")) {

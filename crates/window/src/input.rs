@@ -11,12 +11,11 @@ use winit::event::{ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
 
 /// Sends the input events of one window into a world.
 ///
-/// `MouseMotion` is how far the pointer moved, in logical pixels. The mouse's own counts, as raw
-/// device events give them, are no distance on the screen, and positions with tablets, touch screens
-/// and remote desktops.
+/// `MouseMotion` is the motion of the pointer in logical pixels. Raw device events are not used: their counts are no
+/// distance on the screen, and with tablets, touch screens and remote desktops they are positions.
 pub(crate) struct Forward {
     window: Entity,
-    /// Where the pointer was, in physical pixels.
+    /// The last position of the pointer, in physical pixels.
     pointer: Option<DVec2>,
 }
 
@@ -28,7 +27,7 @@ impl Forward {
     /// Sends `event` if it is input; `scale` is the window's physical pixels a logical one.
     pub(crate) fn event(&mut self, event: &WindowEvent, scale: f64, world: &mut World) {
         match event {
-            // A key that is held when the focus comes was not pressed here.
+            // A key held while the window gains the focus was not pressed in it.
             WindowEvent::KeyboardInput { event, is_synthetic, .. } if !(*is_synthetic && event.state.is_pressed()) => {
                 world.write_message(self.key(event));
             }
@@ -77,8 +76,8 @@ impl Forward {
         MouseWheel { unit, x, y, window: self.window, phase }
     }
 
-    /// Held keys are released, because letting go may happen in another window. `bevy_input` does so
-    /// by itself for physical keys only.
+    /// Releases held keys, since their release events may go to another window. `bevy_input` does so by itself for
+    /// physical keys only.
     fn release_all(&mut self, world: &mut World) {
         world.write_message(KeyboardFocusLost);
         if let Some(mut keys) = world.get_resource_mut::<ButtonInput<Key>>() {
@@ -203,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn losing_the_focus_lets_everything_go() {
+    fn losing_the_focus_releases_every_key() {
         let (mut app, mut forward) = stage();
         let (key_code, logical_key) = (KeyCode::KeyW, Key::Character("w".into()));
         let (state, window) = (ButtonState::Pressed, Entity::PLACEHOLDER);

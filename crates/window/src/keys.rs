@@ -1,9 +1,9 @@
-//! Keys as winit names them, turned into `bevy_input`'s names.
+//! Translates winit's keys to `bevy_input`'s.
 
 use bevy_input::keyboard::{Key, KeyCode, NativeKey, NativeKeyCode};
 use winit::keyboard as from;
 
-/// `value`'s variant of the same name in another enum, or `otherwise` where no name fits.
+/// The variant of another enum with the same name as `value`'s, or `otherwise` if there is none.
 macro_rules! same_name {
     ($value:expr, $from:path => $to:path, $otherwise:expr; $($name:ident)+) => {{
         use $from as From;
@@ -15,7 +15,7 @@ macro_rules! same_name {
     }};
 }
 
-/// The physical key, whatever the layout has printed on it.
+/// The physical key, independent of the layout.
 pub(crate) fn physical(key: from::PhysicalKey) -> KeyCode {
     match key {
         from::PhysicalKey::Code(code) => physical_code(code),
@@ -60,7 +60,7 @@ fn physical_code(code: from::KeyCode) -> KeyCode {
 /// The meaning of the key under the layout.
 pub(crate) fn logical(key: &from::Key) -> Key {
     match key {
-        // `into`, because `bevy_input` holds a `String` or a `SmolStr`, as its features say.
+        // `into`, because `bevy_input` holds a `String` or a `SmolStr`, depending on its features.
         from::Key::Character(text) => Key::Character(text.as_str().into()),
         from::Key::Dead(accent) => Key::Dead(*accent),
         from::Key::Named(name) => named(*name),
@@ -100,12 +100,12 @@ fn named(name: from::NamedKey) -> Key {
     )
 }
 
-/// The character a key stands for as a command, in lower case.
+/// The command character of a key, in lower case.
 ///
-/// Digits are the keys of the digit row and of the number pad, whatever they type with and without
-/// Shift. Otherwise it is the character of the layout, so that Q is the key that says Q; layouts of
-/// other alphabets have no Q, and there it is the key where Q is on a US keyboard. `+` and `-` are
-/// also the keys that type them with Shift, and `=` is taken as `+`, `_` as `-`.
+/// Digits are the keys of the digit row and of the number pad, whatever they type with or without Shift. For other keys
+/// it is the character of the layout, so that Q is the key labelled Q; on layouts of other alphabets, which have no Q,
+/// it is the key at the position of Q on a US keyboard. `+` and `-` are also the keys that type them with Shift, and
+/// `=` is taken as `+`, `_` as `-`.
 pub(crate) fn command(key_code: KeyCode, logical_key: &Key) -> Option<char> {
     if let Some(digit) = digit(key_code) {
         return Some(digit);

@@ -1,4 +1,4 @@
-//! Opening the window, and what to draw with in it.
+//! Opens the window, and the adapter or CPU buffer that draws in it.
 
 use crate::buffer::WindowBuffer;
 use crate::error::{WindowError, reason};
@@ -13,8 +13,8 @@ use winit::dpi::LogicalSize;
 use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
 use winit::window::Window;
 
-/// The open window, on an entity of its own while [`WindowPlugin`](crate::WindowPlugin)'s runner runs; for what the
-/// plugin leaves to you, as full screen or the pointer's shape.
+/// The open window, on an entity of its own while [`WindowPlugin`](crate::WindowPlugin)'s runner runs; for features
+/// that the plugin does not cover, such as full screen or the pointer's shape.
 #[derive(Component, Clone, Debug)]
 pub struct WinitWindow(pub Arc<Window>);
 
@@ -23,19 +23,19 @@ const MOST_LOSSES: u32 = 10;
 
 /// The window of a running App.
 pub(crate) struct Open {
-    /// Where the CPU draws; goes before the window.
+    /// The buffer that the CPU draws into; dropped before the window.
     buffer: Option<WindowBuffer>,
     pub(crate) window: Arc<Window>,
     display: OwnedDisplayHandle,
     pub(crate) input: Forward,
     entity: Entity,
-    /// In physical pixels; 0 along an axis where the window system minimises so.
+    /// In physical pixels; 0 along an axis if the window system minimises that way.
     pub(crate) size: UVec2,
     losses: u32,
 }
 
 impl Open {
-    /// Opens a window and what can draw in it, and puts that into `world`.
+    /// Opens a window and an adapter for it, and inserts both into `world`.
     pub(crate) fn new(
         event_loop: &ActiveEventLoop,
         title: &str,
@@ -60,14 +60,14 @@ impl Open {
         Ok(open)
     }
 
-    /// The shortest time between frames: a little less than the display's own, so that the display sets
-    /// the pace where presenting waits for it, and this does where it does not.
+    /// The shortest time between frames: a little less than the display's interval, so that the display sets the pace
+    /// if presenting waits for it, and this limit does otherwise.
     pub(crate) fn pace(&self) -> Duration {
         let refresh = self.window.current_monitor().and_then(|monitor| monitor.refresh_rate_millihertz());
         shortest_frame(refresh)
     }
 
-    /// The window's picture and the area that is dragged over get the window's size.
+    /// Gives the picture and the [`DragArea`] the window's size.
     pub(crate) fn follow_size(&mut self, world: &mut World) {
         let size = physical_size(&self.window);
         self.size = size;
@@ -83,9 +83,9 @@ impl Open {
         }
     }
 
-    /// Whether the newest frame went to the display, where what the CPU has drawn goes by now. A surface or a device
-    /// that it found lost is made anew.
-    pub(crate) fn settle(&mut self, world: &mut World) -> Result<bool, WindowError> {
+    /// Shows the CPU's picture, replaces a lost surface or device, and returns whether the newest frame reached the
+    /// display.
+    pub(crate) fn present(&mut self, world: &mut World) -> Result<bool, WindowError> {
         if let Some(buffer) = &mut self.buffer {
             let Some((size, picture)) = world.get_resource::<Canvas>().and_then(Canvas::bytes) else {
                 return Ok(false);
@@ -119,7 +119,7 @@ impl Open {
         Ok(presented)
     }
 
-    /// Lets go of the surface and then of the window, while the display is still connected.
+    /// Drops the surface and then the window, while the display is still connected.
     pub(crate) fn close(self, world: &mut World) {
         world.remove_resource::<SurfaceTarget>();
         world.remove_resource::<CanvasTarget>();
@@ -127,8 +127,8 @@ impl Open {
     }
 }
 
-/// Opens what can draw in the window and puts it into `world`: an adapter with the window's surface, or the CPU, which
-/// draws for the buffer that is returned.
+/// Opens the renderer of the window and inserts it into `world`: an adapter with the window's surface, or the CPU,
+/// which draws for the returned buffer.
 fn open_adapter(
     window: &Arc<Window>,
     display: &OwnedDisplayHandle,
@@ -148,7 +148,7 @@ fn open_adapter(
     Ok(None)
 }
 
-/// Nine tenths of the display's interval; of 60 Hz where the display does not say.
+/// Nine tenths of the display's interval; 60 Hz if the display does not report its rate.
 fn shortest_frame(millihertz: Option<u32>) -> Duration {
     let millihertz = millihertz.filter(|rate| (20_000..=1_000_000).contains(rate)).unwrap_or(60_000);
     Duration::from_nanos(900_000_000_000 / u64::from(millihertz))

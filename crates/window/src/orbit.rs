@@ -1,10 +1,10 @@
-//! An orbit: where an eye is on a sphere around a target. Plain geometry, no input.
+//! An orbit: the position of an eye on a sphere around a target. Plain geometry, no input.
 
 use bevy_math::{Quat, Vec3};
 use bevy_transform::components::Transform;
 use std::f32::consts::FRAC_PI_2;
 
-/// The steepest pitch, in radians: a little short of straight up or down, where yaw would mean nothing.
+/// The steepest pitch, in radians: a little short of straight up or down, where yaw is undefined.
 pub const PITCH_LIMIT: f32 = FRAC_PI_2 - 1e-3;
 
 /// An eye on a sphere around a target, looking at it with +Y up.
@@ -25,8 +25,8 @@ pub struct Orbit {
 impl Orbit {
     /// The orbit of an eye at `eye` that looks at `target`.
     ///
-    /// An eye straight above or below gets yaw 0, one at the target (or at a distance that is no
-    /// number) stands 1 unit along +Z from it.
+    /// An eye straight above or below gets yaw 0; one at the target (or at a distance that is not finite) is placed 1
+    /// unit along +Z from it.
     pub fn looking_at(eye: Vec3, target: Vec3) -> Self {
         let backward = eye - target;
         let distance = backward.length();
@@ -38,9 +38,9 @@ impl Orbit {
     }
 
     /// The orbit of a camera at `transform`, around the point `distance` in front of it. A roll is levelled.
-    pub fn of(transform: &Transform, distance: f32) -> Self {
+    pub fn from_transform(transform: &Transform, distance: f32) -> Self {
         let backward = transform.rotation * Vec3::Z;
-        // Looking straight down or up, the yaw is in where the top of the picture points.
+        // Looking straight down or up, the direction of the picture's top gives the yaw.
         let top = transform.rotation * Vec3::Y * -backward.y.signum();
         let steep = backward.x.hypot(backward.z) < 1e-3;
         let heading = if steep { top } else { backward };
@@ -48,12 +48,12 @@ impl Orbit {
         Self { target: transform.translation - backward * distance, distance, yaw, pitch }
     }
 
-    /// Where the eye is.
+    /// The position of the eye.
     pub fn eye(&self) -> Vec3 {
         self.target + self.rotation() * Vec3::Z * self.distance
     }
 
-    /// Turns the camera's axes into those of its parent.
+    /// The rotation from the camera's axes to those of its parent.
     pub fn rotation(&self) -> Quat {
         Quat::from_rotation_y(self.yaw) * Quat::from_rotation_x(-self.pitch)
     }
@@ -125,7 +125,7 @@ mod tests {
         let orbit = Orbit::looking_at(eye, target);
         // Equal up to sign and rounding.
         assert!(orbit.rotation().dot(transform.rotation).abs() > 1.0 - 1e-6);
-        let back = Orbit::of(&transform, orbit.distance);
+        let back = Orbit::from_transform(&transform, orbit.distance);
         assert!(close(back.target, target), "{}", back.target);
         assert!((back.yaw - orbit.yaw).abs() < 1e-5 && (back.pitch - orbit.pitch).abs() < 1e-5, "{back:?}");
     }
@@ -134,10 +134,10 @@ mod tests {
     fn a_camera_that_looks_straight_down_or_up_keeps_its_heading() {
         for (name, direction) in [("down", Vec3::NEG_Y), ("up", Vec3::Y)] {
             for yaw in [-2.0, 0.0, 0.7, 3.0_f32] {
-                // The top of the picture, where a camera of this yaw tilts it to.
+                // The direction of the picture's top under this yaw.
                 let heading = Vec3::new(-yaw.sin(), 0.0, -yaw.cos());
                 let top = heading * if direction.y < 0.0 { 1.0 } else { -1.0 };
-                let orbit = Orbit::of(&Transform::IDENTITY.looking_to(direction, top), 2.0);
+                let orbit = Orbit::from_transform(&Transform::IDENTITY.looking_to(direction, top), 2.0);
                 assert!((orbit.yaw - yaw).abs() < 1e-4, "{name}: {} instead of {yaw}", orbit.yaw);
                 assert_eq!(orbit.pitch.abs(), PITCH_LIMIT, "{name}");
             }

@@ -1,4 +1,4 @@
-//! The orbit camera: an orbit on an entity, moved by mouse and keys.
+//! The orbit camera: a component with an orbit that mouse and keys move.
 
 use crate::keys;
 use crate::orbit::Orbit;
@@ -16,13 +16,13 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 /// A camera that mouse and keys move around a target; needs [`OrbitCameraPlugin`].
 ///
-/// The entity's [`Transform`] follows [`orbit`](Self::orbit), whoever changes it. The other way
-/// round too: where something else moves the `Transform`, the orbit goes on from there, `distance`
-/// in front of the eye. So an animated camera stays animated, and its scale is left alone.
+/// The entity's [`Transform`] follows every change of [`orbit`](Self::orbit). Conversely, if another system moves the
+/// `Transform`, the orbit continues from there, with its target `distance` in front of the eye. So an animated camera
+/// stays animated, and its scale is left alone.
 #[derive(Component, Clone, Debug, PartialEq)]
 #[require(Transform)]
 pub struct OrbitCamera {
-    /// Where the camera is.
+    /// The current orbit.
     pub orbit: Orbit,
     /// The least distance that zooming reaches, above 0. Default a hundredth of the first one.
     pub nearest: f32,
@@ -35,7 +35,7 @@ pub struct OrbitCamera {
 }
 
 impl OrbitCamera {
-    /// A camera on `orbit`, which is also where Home and R go back to.
+    /// A camera on `orbit`, to which Home and R return.
     pub fn new(orbit: Orbit) -> Self {
         let (nearest, farthest) = (orbit.distance * 0.01, orbit.distance * 100.0);
         Self { orbit, nearest, farthest, start: orbit, shown: None }
@@ -49,7 +49,7 @@ impl OrbitCamera {
     /// A camera that takes over from `transform` and turns about the point `distance` in front of
     /// it. The picture stays as it is, also at a pole or with a roll, until the camera is moved.
     pub fn resume(transform: &Transform, distance: f32) -> Self {
-        let orbit = Orbit::of(transform, distance);
+        let orbit = Orbit::from_transform(transform, distance);
         Self { shown: Some(orbit), ..Self::new(orbit) }
     }
 
@@ -58,27 +58,27 @@ impl OrbitCamera {
         self.orbit.distance = (self.orbit.distance * factor).min(self.farthest).max(self.nearest);
     }
 
-    /// Goes back to where the camera started.
+    /// Returns to the camera's first orbit.
     pub fn reset(&mut self) {
         self.orbit = self.start;
     }
 
-    /// Moves by what the user asked for, under the camera's projection; returns that of the moved camera.
-    fn apply(&mut self, wish: &Wish, projection: Projection) -> Projection {
+    /// Applies the user's input, under the camera's projection; returns that of the moved camera.
+    fn apply(&mut self, camera_input: &CameraInput, projection: Projection) -> Projection {
         let before = self.orbit.distance;
-        if wish.reset {
+        if camera_input.reset {
             self.reset();
         }
-        if wish.turn != Vec2::ZERO {
-            self.orbit.turn(wish.turn.x, wish.turn.y);
+        if camera_input.turn != Vec2::ZERO {
+            self.orbit.turn(camera_input.turn.x, camera_input.turn.y);
         }
-        if wish.pan != Vec2::ZERO {
-            // The height of the picture at the target: what is there follows the pointer.
+        if camera_input.pan != Vec2::ZERO {
+            // The height of the picture at the target, so that objects there follow the pointer.
             let height = projection.height_at(self.orbit.distance);
-            self.orbit.pan(-wish.pan.x * height, wish.pan.y * height);
+            self.orbit.pan(-camera_input.pan.x * height, camera_input.pan.y * height);
         }
-        if wish.zoom != 0.0 {
-            self.zoom(wish.zoom.exp());
+        if camera_input.zoom != 0.0 {
+            self.zoom(camera_input.zoom.exp());
         }
         projection.moved(before, self.orbit.distance)
     }
@@ -86,17 +86,17 @@ impl OrbitCamera {
 
 /// Moves every [`OrbitCamera`] by `bevy_input`'s mouse and keys, in `PreUpdate`.
 ///
-/// | input | what it does |
+/// | input | effect |
 /// |---|---|
 /// | left drag | turns: half a turn over the height of the [`DragArea`] |
-/// | right, middle or Shift + left drag | pans: what is at the target follows the pointer |
+/// | right, middle or Shift + left drag | pans: objects at the target follow the pointer |
 /// | wheel | zooms, a tenth nearer or farther a line; an orthographic picture shows a tenth less or more |
 /// | arrow keys | turn, 90° a second |
 /// | + and − | zoom, by e a second |
 /// | Home, R | back to the start |
 ///
-/// Keys with Control, Alt or Super are left to others. Knows no window; `InputPlugin` and
-/// `TimePlugin` are added where the App has none yet (add your own before). May be added more than once.
+/// Keys with Control, Alt or Super are ignored. The plugin needs no window; `InputPlugin` and `TimePlugin` are added
+/// where the App has none yet (add your own before). May be added more than once.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OrbitCameraPlugin;
 
@@ -119,8 +119,8 @@ impl Plugin for OrbitCameraPlugin {
     }
 }
 
-/// The size, in the unit of `bevy_input`'s mouse motion, of the picture that is dragged over: how
-/// far a drag turns and pans. Default 1280 × 720; a window keeps it at its own size in logical pixels.
+/// The size of the picture in the unit of `bevy_input`'s mouse motion, which decides how far a drag turns and pans.
+/// Default 1280 × 720; a window keeps it at its own size in logical pixels.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct DragArea(pub Vec2);
 
@@ -132,17 +132,17 @@ impl Default for DragArea {
 
 /// The input for the cameras in one frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Wish {
+struct CameraInput {
     /// Yaw and pitch in radians.
     turn: Vec2,
-    /// Of what is seen, in heights of the picture, right and down.
+    /// The shift of the picture, in its heights, right and down.
     pan: Vec2,
     /// The logarithm of the factor on the distance.
     zoom: f32,
     reset: bool,
 }
 
-/// `bevy_input`, and the keys that count by their character.
+/// The input of `bevy_input`, and keys by their characters.
 #[derive(SystemParam)]
 struct Input<'w, 's> {
     keys: Res<'w, ButtonInput<KeyCode>>,
@@ -152,7 +152,7 @@ struct Input<'w, 's> {
     pixels_per_line: Res<'w, MouseScrollPixelsPerLine>,
     presses: MessageReader<'w, 's, KeyboardInput>,
     focus_lost: MessageReader<'w, 's, KeyboardFocusLost>,
-    /// The + and − keys held. By key, because the character may be another one when it is let go.
+    /// The held + and − keys, stored by key, because the character may have changed at release.
     held: Local<'s, Vec<(KeyCode, f32)>>,
 }
 
@@ -166,39 +166,39 @@ const WHEEL_ZOOM: f32 = 0.1;
 const LONGEST_FRAME: f32 = 0.1;
 
 impl Input<'_, '_> {
-    fn wish(&mut self, seconds: f32, area: Vec2) -> Wish {
+    fn camera_input(&mut self, seconds: f32, area: Vec2) -> CameraInput {
         let reset = self.read_keys();
-        let mut wish = self.drag(area.y.max(1.0));
-        wish.reset = reset;
+        let mut camera_input = self.drag(area.y.max(1.0));
+        camera_input.reset = reset;
         let seconds = seconds.min(LONGEST_FRAME);
         if !modified(&self.keys) {
             let axis = |plus, minus| f32::from(self.keys.pressed(plus)) - f32::from(self.keys.pressed(minus));
             let arrows =
                 Vec2::new(axis(KeyCode::ArrowRight, KeyCode::ArrowLeft), axis(KeyCode::ArrowUp, KeyCode::ArrowDown));
-            wish.turn += arrows * KEY_TURN * seconds;
+            camera_input.turn += arrows * KEY_TURN * seconds;
         }
-        wish.zoom += self.held.iter().map(|&(_, zoom)| zoom).sum::<f32>() * KEY_ZOOM * seconds;
-        wish.zoom -= self.scroll.to_lines(&self.pixels_per_line).delta.y * WHEEL_ZOOM;
-        wish
+        camera_input.zoom += self.held.iter().map(|&(_, zoom)| zoom).sum::<f32>() * KEY_ZOOM * seconds;
+        camera_input.zoom -= self.scroll.to_lines(&self.pixels_per_line).delta.y * WHEEL_ZOOM;
+        camera_input
     }
 
-    fn drag(&self, height: f32) -> Wish {
+    fn drag(&self, height: f32) -> CameraInput {
         let moved = self.motion.delta / height;
-        // In the frame of the release the pointer has moved too; a quick drag is all in one frame.
+        // The pointer also moves in the frame of the release; a quick drag lies within one frame.
         let pressed = |button| self.buttons.pressed(button) || self.buttons.just_released(button);
         let shift = self.keys.any_pressed([KeyCode::ShiftLeft, KeyCode::ShiftRight]);
         let left = pressed(MouseButton::Left);
         if pressed(MouseButton::Right) || pressed(MouseButton::Middle) || (left && shift) {
-            Wish { pan: moved, ..Wish::default() }
+            CameraInput { pan: moved, ..CameraInput::default() }
         } else if left {
-            // The scene follows the pointer, so the eye goes the other way.
-            Wish { turn: Vec2::new(-moved.x, moved.y) * PI, ..Wish::default() }
+            // The scene follows the pointer, so the eye moves the other way.
+            CameraInput { turn: Vec2::new(-moved.x, moved.y) * PI, ..CameraInput::default() }
         } else {
-            Wish::default()
+            CameraInput::default()
         }
     }
 
-    /// Keeps account of + and −, and says whether the way back was asked for.
+    /// Tracks + and −, and returns whether a reset was requested.
     fn read_keys(&mut self) -> bool {
         let mut reset = false;
         for key in self.presses.read() {
@@ -221,7 +221,7 @@ impl Input<'_, '_> {
     }
 }
 
-/// Whether a key is held that makes a shortcut of others out of the next one.
+/// Whether a modifier is held, so that the next key is a shortcut of another program.
 pub(crate) fn modified(keys: &ButtonInput<KeyCode>) -> bool {
     use KeyCode::{AltLeft, AltRight, ControlLeft, ControlRight, SuperLeft, SuperRight};
     keys.any_pressed([AltLeft, AltRight, ControlLeft, ControlRight, SuperLeft, SuperRight])
@@ -233,16 +233,16 @@ fn drive(
     time: Res<Time<Real>>,
     mut cameras: Query<(&mut OrbitCamera, &mut Transform, Option<&mut Camera>)>,
 ) {
-    let wish = input.wish(time.delta_secs(), area.0);
+    let camera_input = input.camera_input(time.delta_secs(), area.0);
     for (mut orbit, mut transform, camera) in &mut cameras {
         if transform.is_changed() && orbit.shown == Some(orbit.orbit) {
             let orbit = orbit.bypass_change_detection();
-            orbit.orbit = Orbit::of(&transform, orbit.orbit.distance);
+            orbit.orbit = Orbit::from_transform(&transform, orbit.orbit.distance);
             orbit.shown = Some(orbit.orbit);
         }
-        if wish != Wish::default() {
+        if camera_input != CameraInput::default() {
             let projection = camera.as_ref().map_or_else(Projection::default, |camera| camera.projection);
-            let moved = orbit.apply(&wish, projection);
+            let moved = orbit.apply(&camera_input, projection);
             if let Some(mut camera) = camera
                 && moved != projection
             {

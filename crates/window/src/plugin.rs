@@ -14,7 +14,7 @@ use bevy_transform::components::Transform;
 use halfway_lighting::Camera;
 use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 
-/// Runs the App in a window: one `App::update` a frame, as fast as the display shows them.
+/// Runs the App in a window: one `App::update` a frame, at the display's rate.
 ///
 /// The App draws into the window instead of a headless picture; the adapter is open before
 /// the first update, so `Startup` systems find [`Gpu`](halfway_render::Gpu) and [`SurfaceTarget`], or
@@ -24,29 +24,27 @@ use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 /// the frames, unless
 /// [`Compile`](halfway_render::Compile) says otherwise.
 ///
-/// The App ends when the window is closed ([`AppExit::Success`](bevy_app::AppExit), after a last
-/// update that sees the message) or when it sends an `AppExit` itself. Where there is no display, or
-/// the adapter that is asked for, the run ends at once with exit code 3 and a message that says what to
-/// do. Errors of a frame are logged once each. All messages go to the log, or to the standard error
-/// output where no logger shows errors.
+/// The App ends when the window is closed ([`AppExit::Success`](bevy_app::AppExit), after a last update that receives
+/// the message) or when it sends an `AppExit` itself. Without a display, or without the requested adapter, the run ends
+/// at once with exit code 3 and a message that names the remedy. Each error of a frame is logged once. All messages go
+/// to the log, or to standard error if no logger shows errors.
 ///
-/// The runner must run on the main thread, once a process, as displays demand. `InputPlugin` is added
-/// where the App has none yet (add your own before).
+/// The runner must run on the main thread, once a process, as window systems require. `InputPlugin` is added where the
+/// App has none yet (add your own before).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WindowPlugin {
     /// The program's name, the first part of the window's title. Default "halfway".
     pub title: String,
     /// Width and height that the window opens with, in logical pixels. Default 1280 × 720.
     pub size: UVec2,
-    /// Whether the title goes on with [`WindowTitle`] and, twice a second, the frame's counters
+    /// Whether the title also shows [`WindowTitle`] and, twice a second, the frame's counters
     /// ([`FrameReport`](halfway_render::FrameReport)), its times on the CPU
-    /// ([`FrameTimes`](halfway_render::FrameTimes), without the wait for the display) and on the GPU
-    /// ([`GpuTimer`], which is inserted for it), frames a second, shading and errors. Default true.
+    /// ([`FrameTimes`](halfway_render::FrameTimes), without the wait for the display) and on the GPU ([`GpuTimer`],
+    /// which is inserted for it), frames a second, shading and errors. Default true.
     pub status: bool,
-    /// Whether mouse and keys move the camera. Adds [`OrbitCameraPlugin`], and gives an
-    /// [`OrbitCamera`] to every new [`Camera`] that has none and hangs on no parent; it turns about
-    /// the point of the view axis nearest the origin, or, where that is not in front of the camera,
-    /// the point as far in front of it as the origin is away. Default true.
+    /// Whether mouse and keys move the camera. Adds [`OrbitCameraPlugin`], and gives an [`OrbitCamera`] to every new
+    /// [`Camera`] without one and without a parent; it turns about the point of the view axis nearest the origin, or,
+    /// if that is not in front of the camera, about the point as far ahead as the origin is away. Default true.
     pub orbit: bool,
     /// Whether keys change the shading and close the window. Adds [`ViewerKeysPlugin`]. Default true.
     pub viewer_keys: bool,
@@ -78,7 +76,7 @@ impl Plugin for WindowPlugin {
     }
 
     fn finish(&self, app: &mut App) {
-        // By now every plugin is there, whichever came first.
+        // By now every plugin is added, in any order.
         let renderer = app.get_added_plugins::<RenderPlugin>().first().map(|plugin| plugin.schedule);
         let schedule = renderer.unwrap_or(PostUpdate.intern());
         app.add_systems(schedule, announce.after(RenderSet::Draw).before(RenderSet::Deliver));
@@ -88,15 +86,15 @@ impl Plugin for WindowPlugin {
 type NewCameras<'w, 's> =
     Query<'w, 's, (Entity, &'static Transform), (Added<Camera>, Without<OrbitCamera>, Without<ChildOf>)>;
 
-/// A camera without an orbit gets one that leaves the picture as it is.
+/// Gives a camera without an orbit one that does not change its picture.
 fn give_orbits(cameras: NewCameras, mut commands: Commands) {
     for (entity, transform) in &cameras {
         commands.entity(entity).insert(OrbitCamera::resume(transform, distance_to_turn_at(transform)));
     }
 }
 
-/// From the eye to the point of the view axis nearest the origin, or to the origin where that point
-/// is not well in front of the eye; 1 for an eye at the origin.
+/// The distance from the eye to the point of the view axis nearest the origin, or to the origin if that point is not
+/// well in front of the eye; 1 for an eye at the origin.
 fn distance_to_turn_at(transform: &Transform) -> f32 {
     let away = transform.translation.length();
     let along = transform.translation.dot(transform.rotation * Vec3::Z);
@@ -104,7 +102,7 @@ fn distance_to_turn_at(transform: &Transform) -> f32 {
     if distance > 0.0 && distance.is_finite() { distance } else { 1.0 }
 }
 
-/// Tells the window system that a picture is coming, so that it says when it wants the next one.
+/// Announces a picture to the window system, so that it schedules the next redraw.
 fn announce(window: Query<&WinitWindow>, surface: Option<Res<SurfaceTarget>>) {
     if surface.is_some_and(|surface| surface.acquired()) {
         window.iter().for_each(|window| window.0.pre_present_notify());
@@ -116,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cameras_turn_about_what_they_look_at() {
+    fn cameras_orbit_the_point_that_they_face() {
         let at = |x, y, z, target: Vec3| Transform::from_xyz(x, y, z).looking_at(target, Vec3::Y);
         let rows = [
             ("at the origin", at(0.0, 3.0, 4.0, Vec3::ZERO), 5.0),

@@ -1,18 +1,18 @@
-//! Problems are reported once, where people see them.
+//! Reports each problem once, in the log or on standard error.
 
 use std::collections::HashSet;
 use std::fmt::Display;
 
-/// How many different messages are said before the rest is silence: an error whose text changes
-/// from frame to frame must not fill the log, or the memory.
+/// The most different messages that are reported: an error whose text changes from frame to frame must not fill the
+/// log, or the memory.
 const MOST: usize = 100;
 
-/// Messages that have been said.
+/// The messages reported so far.
 #[derive(Default)]
-pub(crate) struct Said(HashSet<String>);
+pub(crate) struct Reported(HashSet<String>);
 
-impl Said {
-    /// Those of `errors` that have not been said yet, in order.
+impl Reported {
+    /// Those of `errors` that were not reported yet, in order.
     fn new_ones(&mut self, errors: impl IntoIterator<Item = impl Display>) -> Vec<String> {
         let mut new = Vec::new();
         for error in errors {
@@ -27,16 +27,16 @@ impl Said {
         new
     }
 
-    /// Says those of `errors` that have not been said yet.
-    pub(crate) fn say_new(&mut self, errors: impl IntoIterator<Item = impl Display>) {
+    /// Reports those of `errors` that were not reported yet.
+    pub(crate) fn report_new(&mut self, errors: impl IntoIterator<Item = impl Display>) {
         for message in self.new_ones(errors) {
-            say(message);
+            report(message);
         }
     }
 }
 
-/// Logs an error; writes it to the standard error output where the App has no logger that shows errors.
-pub(crate) fn say(message: impl Display) {
+/// Logs an error; writes it to standard error if the App has no logger that shows errors.
+pub(crate) fn report(message: impl Display) {
     if log::log_enabled!(log::Level::Error) {
         log::error!("{message}");
     } else {
@@ -50,17 +50,17 @@ mod tests {
 
     #[test]
     fn an_error_is_said_once() {
-        let mut said = Said::default();
-        assert_eq!(said.new_ones(["a", "b", "a"]), ["a", "b"]);
-        assert_eq!(said.new_ones(["b", "c"]), ["c"]);
-        assert!(said.new_ones(["a", "b", "c"]).is_empty());
+        let mut reported = Reported::default();
+        assert_eq!(reported.new_ones(["a", "b", "a"]), ["a", "b"]);
+        assert_eq!(reported.new_ones(["b", "c"]), ["c"]);
+        assert!(reported.new_ones(["a", "b", "c"]).is_empty());
     }
 
     #[test]
     fn endless_different_errors_end() {
-        let mut said = Said::default();
-        // All of them, and the line that says so.
-        assert_eq!(said.new_ones(0..10 * MOST).len(), MOST + 1);
-        assert!(said.new_ones([-1]).is_empty());
+        let mut reported = Reported::default();
+        // All of them, and the line that announces the limit.
+        assert_eq!(reported.new_ones(0..10 * MOST).len(), MOST + 1);
+        assert!(reported.new_ones([-1]).is_empty());
     }
 }

@@ -3,7 +3,7 @@
 use crate::display::has_display;
 use crate::error::{WindowError, reason};
 use crate::open::Open;
-use crate::problems::{Said, say};
+use crate::problems::{self, Reported};
 use crate::title::{FrameTime, title};
 use bevy_app::{App, AppExit, PluginsState};
 use bevy_math::UVec2;
@@ -14,10 +14,10 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::window::WindowId;
 
-/// Between looks at whether a hidden window is back.
-const SELDOM: Duration = Duration::from_millis(250);
+/// The interval at which a hidden window is polled.
+const HIDDEN_POLL: Duration = Duration::from_millis(250);
 
-/// Between titles: long enough to read one.
+/// The interval between titles: long enough to read one.
 const TITLE: Duration = Duration::from_millis(500);
 
 /// The plugin's settings for the window.
@@ -51,7 +51,7 @@ fn open_display() -> Result<EventLoop<()>, WindowError> {
 }
 
 fn failed(error: &WindowError) -> AppExit {
-    say(error);
+    problems::report(error);
     error.exit()
 }
 
@@ -65,22 +65,22 @@ fn finish_plugins(app: &mut App) {
     }
 }
 
-/// The App, its window and what was last said about them.
+/// The App, its window and their state.
 struct Runner {
     app: App,
     settings: Settings,
     open: Option<Open>,
-    /// The window system says that nothing of the window can be seen.
+    /// The window system reports that the window is fully covered.
     covered: bool,
     minimised: bool,
     exit: Option<AppExit>,
     frames: u64,
     /// The shortest time from frame to frame.
     pace: Duration,
-    said: Said,
-    next_look: Instant,
+    reported: Reported,
+    next_poll: Instant,
     shown_title: String,
-    /// When the title was made, and after how many frames.
+    /// The time of the last title, and the number of frames then.
     titled: Option<(Instant, u64)>,
 }
 
@@ -94,22 +94,22 @@ impl Runner {
             exit: None,
             frames: 0,
             pace: Duration::ZERO,
-            said: Said::default(),
-            next_look: Instant::now(),
+            reported: Reported::default(),
+            next_poll: Instant::now(),
             shown_title: settings.title.clone(),
             titled: None,
             settings,
         }
     }
 
-    /// Updates and draws, unless nothing of it could be seen, and arranges for the next time.
+    /// Updates and draws, unless the window is hidden, and schedules the next frame.
     fn frame(&mut self, event_loop: &ActiveEventLoop) {
         let start = Instant::now();
-        // Before the frame, at once after the display has been listened to: winit panics where one that is gone
-        // meanwhile is asked for something.
-        if self.exit.is_none() && !self.hidden() && start >= self.next_look {
-            self.next_look = start + SELDOM;
-            self.now_and_then(event_loop);
+        // Before the frame, right after the display's events were read: winit panics if it queries a display that
+        // closed meanwhile.
+        if self.exit.is_none() && !self.hidden() && start >= self.next_poll {
+            self.next_poll = start + HIDDEN_POLL;
+            self.poll(event_loop);
         }
         if self.hidden() || self.exit.is_some() {
             return;
@@ -119,7 +119,7 @@ impl Runner {
             return self.end(event_loop, exit);
         }
         let Some(open) = &mut self.open else { return };
-        let presented = match open.settle(self.app.world_mut()) {
+        let presented = match open.present(self.app.world_mut()) {
             Ok(presented) => presented,
             Err(error) => return self.end(event_loop, failed(&error)),
         };
@@ -132,36 +132,36 @@ impl Runner {
         }
         if presented {
             self.frames += 1;
-            // The first frame builds pipelines and takes up meshes, and is no measure of the others.
+            // The first frame builds pipelines and uploads meshes, so it does not represent the others.
             if self.frames > 1 {
                 self.app.world_mut().get_resource_or_init::<FrameTime>().push(took);
             }
         }
-        self.say_errors();
+        self.report_errors();
     }
 
     fn hidden(&self) -> bool {
         self.covered || self.minimised
     }
 
-    fn say_errors(&mut self) {
+    fn report_errors(&mut self) {
         let Some(report) = self.app.world().get_resource::<FrameReport>() else { return };
         let (losses, others): (Vec<_>, Vec<_>) =
             report.errors.iter().partition(|error| matches!(error, RenderError::DeviceLost(_)));
-        // One report has it; the next loss is another one, though it reads the same.
-        losses.into_iter().for_each(say);
-        self.said.say_new(others);
+        // Each loss is reported, though the text repeats.
+        losses.into_iter().for_each(problems::report);
+        self.reported.report_new(others);
     }
 
-    /// Work that costs too much for every frame: the title, and asking about the window and its display.
-    fn now_and_then(&mut self, event_loop: &ActiveEventLoop) {
+    /// Work that is too slow for every frame: setting the title, and polling the window and its display.
+    fn poll(&mut self, event_loop: &ActiveEventLoop) {
         let Some(open) = &self.open else { return };
         self.pace = open.pace();
-        // The title is about a frame that has been shown.
+        // The title describes a frame that was shown.
         if self.settings.status && self.frames > 0 && self.titled.is_none_or(|(when, _)| when.elapsed() >= TITLE) {
             self.set_title();
         }
-        self.look(event_loop);
+        self.poll_minimised(event_loop);
     }
 
     fn set_title(&mut self) {
@@ -178,12 +178,12 @@ impl Runner {
         }
     }
 
-    /// Sees whether the window is minimised; not every window system says so by itself.
-    fn look(&mut self, event_loop: &ActiveEventLoop) {
+    /// Polls whether the window is minimised; not every window system sends an event for it.
+    fn poll_minimised(&mut self, event_loop: &ActiveEventLoop) {
         let Some(open) = &self.open else { return };
         self.minimised = open.size.min_element() == 0 || open.window.is_minimized() == Some(true);
         if self.minimised {
-            event_loop.set_control_flow(ControlFlow::WaitUntil(Instant::now() + SELDOM));
+            event_loop.set_control_flow(ControlFlow::WaitUntil(Instant::now() + HIDDEN_POLL));
         }
     }
 
@@ -195,7 +195,7 @@ impl Runner {
         }
     }
 
-    /// The close button: a last update, in which systems see the message.
+    /// The close button: runs a last update, in which systems receive the message.
     fn close(&mut self, event_loop: &ActiveEventLoop) {
         self.app.world_mut().write_message(AppExit::Success);
         self.app.update();
@@ -204,7 +204,7 @@ impl Runner {
     }
 
     fn end(&mut self, event_loop: &ActiveEventLoop, exit: AppExit) {
-        self.say_errors();
+        self.report_errors();
         self.exit = Some(exit);
         event_loop.exit();
     }
@@ -214,7 +214,7 @@ impl ApplicationHandler for Runner {
     fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
         if matches!(cause, StartCause::ResumeTimeReached { .. }) {
             event_loop.set_control_flow(ControlFlow::Wait);
-            self.look(event_loop);
+            self.poll_minimised(event_loop);
             self.redraw();
         }
     }
@@ -236,10 +236,10 @@ impl ApplicationHandler for Runner {
         open.input.event(&event, open.window.scale_factor(), self.app.world_mut());
         match event {
             WindowEvent::RedrawRequested => self.frame(event_loop),
-            // A change of the scale factor is followed by one of the size, but not everywhere.
+            // Not every window system follows a change of the scale factor with one of the size.
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
                 open.follow_size(self.app.world_mut());
-                self.look(event_loop);
+                self.poll_minimised(event_loop);
                 self.redraw();
             }
             WindowEvent::Occluded(covered) => {
@@ -247,7 +247,7 @@ impl ApplicationHandler for Runner {
                 self.redraw();
             }
             WindowEvent::CloseRequested => self.close(event_loop),
-            // Taken away by the display; there is nothing left to draw in.
+            // The display destroyed the window.
             WindowEvent::Destroyed => self.end(event_loop, AppExit::Success),
             _ => {}
         }

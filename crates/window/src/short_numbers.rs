@@ -1,4 +1,4 @@
-//! Numbers as short as a title wants them.
+//! Short numbers for the window's title.
 
 use std::time::Duration;
 
@@ -15,7 +15,7 @@ pub(crate) fn count(value: u64, noun: &str) -> String {
 /// Powers of 1000: "0 B", "1.2 kB", "261 MB".
 pub(crate) fn bytes(value: u64) -> String {
     let number = scaled(value);
-    // The prefix, if there is one, stands behind the space already.
+    // A prefix already follows the space.
     if number.contains(' ') { format!("{number}B") } else { format!("{number} B") }
 }
 
@@ -44,7 +44,7 @@ fn scaled(value: u64) -> String {
     let mut number = value as f64;
     for prefix in ["k", "M", "G", "T", "P"] {
         number /= 1e3;
-        // A number that would round to four digits takes the next prefix.
+        // A number that would round to four digits gets the next prefix.
         if number < 999.5 {
             let digits = usize::from(number < 99.95);
             return format!("{number:.digits$} {prefix}");

@@ -1,4 +1,4 @@
-//! The window's title: what is shown, what a frame of it takes, and how it is shaded.
+//! The window's title: the scene, the cost of a frame, and the shading.
 
 use crate::short_numbers::{bytes, count, milliseconds, per_second};
 use bevy_ecs::prelude::*;
@@ -6,7 +6,7 @@ use halfway_lighting::{Intensity, Reflectance, Shading, ViewTolerance};
 use halfway_render::{FrameReport, FrameTimes, GpuTimer, ModelView, View};
 use std::time::Duration;
 
-/// The name of what is shown, a model's or a scene's, for the window's title. Default empty: no name.
+/// The name of the shown model or scene, for the window's title. Default empty: no name.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowTitle(pub String);
 
@@ -19,7 +19,7 @@ impl FrameTime {
     /// The time over which an old frame's weight falls to 1/e, in seconds.
     const MEMORY: f64 = 0.5;
 
-    /// Takes in a frame.
+    /// Adds a frame.
     pub(crate) fn push(&mut self, frame: Duration) {
         let new = frame.as_secs_f64();
         let smoothed = self.0.map_or(new, |old| {
@@ -43,12 +43,12 @@ struct Status<'a> {
     reflectance: Option<&'static str>,
     /// The policy for intensities above 1, unless they are clamped.
     intensity: Option<&'static str>,
-    /// How much light may be left out, in steps of 1/255.
+    /// The light that may be left out, in steps of 1/255.
     steps: Option<f32>,
 }
 
 impl Status<'_> {
-    /// "program – name — counters · times · shading · errors", less what there is none of.
+    /// "program – name — counters · times · shading · errors", without empty parts.
     fn text(&self) -> String {
         let names: Vec<_> = [self.program, self.name].into_iter().filter(|name| !name.is_empty()).collect();
         let mut parts = self.report.map_or_else(Vec::new, counters);
@@ -71,7 +71,7 @@ impl Status<'_> {
     }
 }
 
-/// The counters that a title shows, in its order: one line each. Some show only where there is something to count.
+/// The counters of the title, in order; some are left out if they are 0.
 fn counters(report: &FrameReport) -> Vec<String> {
     let unless_0 = |value: u64, noun: &str, done: &str| (value > 0).then(|| format!("{} {done}", count(value, noun)));
     let shown = [
@@ -96,7 +96,7 @@ fn intensity_name(policy: Intensity) -> Option<&'static str> {
     }
 }
 
-/// The one name of all the objects, "mixed" where they differ, the view's where there are none.
+/// The common name of all objects, "mixed" if they differ, the view's if there are none.
 fn common(mut names: impl Iterator<Item = &'static str>, view: &'static str) -> &'static str {
     let Some(first) = names.next() else { return view };
     if names.all(|name| name == first) { first } else { "mixed" }
@@ -220,7 +220,7 @@ mod tests {
         for _ in 0..500 {
             time.push(Duration::from_millis(20));
         }
-        // Ten seconds are twenty times the memory: what is left of the first frame is 10 ms · e⁻²⁰ and rounding.
+        // Ten seconds are twenty times the memory: the first frame's share is 10 ms · e⁻²⁰ and rounding.
         let settled = time.0.unwrap().as_secs_f64();
         assert!((settled - 0.020).abs() < 1e-6, "{settled}");
     }

@@ -10,20 +10,19 @@ use bevy_input::{ButtonInput, InputPlugin, InputSystems};
 use halfway_lighting::{Camera, Choices, Intensity, Reflectance, Shading, Tolerance, ViewTolerance};
 use halfway_render::ModelView;
 
-/// Keys to compare shadings with, in `PreUpdate`:
+/// Keys to compare shadings, read in `PreUpdate`:
 ///
-/// | key | what it does |
+/// | key | effect |
 /// |---|---|
 /// | 1, 2, 3 | flat, Gouraud, Phong shading |
-/// | T | the tolerance: exact, ½, 1, 2, 4, 8 steps, and again; of pixels nothing changes |
+/// | T | cycles through tolerances: exact, ½, 1, 2, 4, 8 steps; the tolerance in pixels stays |
 /// | B | switches between Phong and Blinn–Phong reflectance |
-/// | I | what becomes of intensities above 1: clamp, renormalise, renormalise smoothly, Reinhard, ACES, and again |
+/// | I | cycles through tone mapping: clamp, renormalise, renormalise smoothly, Reinhard, ACES |
 /// | Escape, Q | closes: [`AppExit::Success`] |
 ///
-/// A choice is set on every camera and on every object that has a choice of its own. B goes to Phong
-/// where anything drawn is Blinn–Phong, and back to the kind of Blinn–Phong that was there. Keys with
-/// Control, Alt or Super are left to others. `InputPlugin` is added where the App has none yet (add
-/// your own before). May be added more than once.
+/// A choice is set on every camera and on every object that has a choice of its own. B selects Phong if anything drawn
+/// is Blinn–Phong, and then returns to the previous kind of Blinn–Phong. Keys with Control, Alt or Super are ignored.
+/// `InputPlugin` is added where the App has none yet (add your own before). May be added more than once.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ViewerKeysPlugin;
 
@@ -69,7 +68,7 @@ fn read(mut presses: MessageReader<KeyboardInput>, keys: Res<ButtonInput<KeyCode
     }
 }
 
-/// Everything that a choice of `T` may be on: cameras, drawn objects, and what has one already.
+/// The entities that may have a choice of `T`: cameras, drawn objects, and all that have one already.
 type Choosers<'w, 's, T> = Query<'w, 's, (Entity, Option<&'static mut T>, Has<Camera>, Has<ModelView>)>;
 
 /// Sets `value` on every camera and on every entity that has one of its own.
@@ -114,7 +113,7 @@ fn reflectance(
     choose(next, &mut choosers, &mut commands);
 }
 
-/// The Blinn–Phong reflectance of anything drawn, or of the view where nothing is.
+/// The Blinn–Phong reflectance of any drawn object, or of the view if nothing is drawn.
 fn shown_blinn(choosers: &Choosers<Reflectance>) -> Option<Reflectance> {
     let view = choosers.iter().find(|(_, _, is_camera, _)| *is_camera).and_then(|(_, own, ..)| own.copied());
     let view = view.unwrap_or_default();
@@ -126,17 +125,17 @@ fn shown_blinn(choosers: &Choosers<Reflectance>) -> Option<Reflectance> {
     shown.find(|&shown| shown != Reflectance::Phong)
 }
 
-/// The policies that I goes through.
+/// The policies that I cycles through.
 const POLICIES: [Intensity; 5] = [
     Intensity::Clamp,
     Intensity::Renormalize { smoothing: 0.0 },
-    // At 60 frames a second a change has come to 1/e of what is left in a third of a second.
+    // At 60 frames a second the rest of a change falls to 1/e in a third of a second.
     Intensity::Renormalize { smoothing: 0.95 },
     Intensity::Reinhard { white: Intensity::WHITE },
     Intensity::Aces,
 ];
 
-/// Sets the next policy on every camera; from one that is not in the list the first of its kind is taken for it.
+/// Sets the next policy on every camera; a policy that is not in the list counts as the first of its kind.
 fn intensity(pressed: Res<Pressed>, mut cameras: Query<&mut Camera>) {
     if !pressed.has('i') {
         return;
@@ -149,7 +148,7 @@ fn intensity(pressed: Res<Pressed>, mut cameras: Query<&mut Camera>) {
     }
 }
 
-/// The steps that T goes through.
+/// The steps that T cycles through.
 const STEPS: [f32; 6] = [0.0, 0.5, 1.0, 2.0, 4.0, 8.0];
 
 fn tolerance(pressed: Res<Pressed>, of_view: Option<ResMut<ViewTolerance>>, mut own: Query<&mut Tolerance>) {
@@ -192,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn digits_set_the_shading_of_cameras_and_of_objects_with_their_own() {
+    fn digit_keys_set_the_shading_of_cameras_and_objects() {
         let rows = [
             (KeyCode::Digit1, "1", Shading::Flat),
             (KeyCode::Digit2, "2", Shading::Gouraud),
@@ -215,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn b_switches_what_is_shown() {
+    fn b_switches_the_reflectance() {
         use Reflectance::{BlinnPhong, BlinnPhongMatched, Phong};
         // The camera's own, the objects' own, and what all have after one press and after two.
         let rows = [

@@ -16,7 +16,7 @@ struct Setup {
     cone: Cone,
     viewer: Viewer,
     projection: Projection,
-    /// A pane of the same looks before the object.
+    /// A pane with the same material before the object.
     pane: bool,
 }
 
@@ -25,7 +25,7 @@ enum Kind {
     Point,
     Spot,
     Directional,
-    /// A light of nothing but an ambient colour, which it attenuates.
+    /// A light with only an ambient colour, which it attenuates.
     Ambient,
 }
 
@@ -56,7 +56,7 @@ const fn cone(name: &'static str, set: fn(&mut Setup)) -> Value {
     Value { name, set, kinds: &[Kind::Spot] }
 }
 
-/// The values of the first of each axis are those of a scene that says nothing else.
+/// The first value of each axis is the default of all rows.
 const AXES: [&[Value]; 10] = [
     &[
         value("phong shading", |setup| setup.object.shading = Some(Shading::Phong)),
@@ -157,7 +157,7 @@ fn dome_and_bowl() -> Mesh {
 impl Setup {
     fn new() -> Self {
         Self {
-            object: Thing::new(dome_and_bowl()).of(material()).at(turn().with_scale(Vec3::splat(0.9))),
+            object: Thing::new(dome_and_bowl()).with_material(material()).at(turn().with_scale(Vec3::splat(0.9))),
             kind: Kind::Point,
             light: point_light(),
             cone: Cone { cutoff: 0.36, inner: None, exponent: 1.0 },
@@ -178,12 +178,14 @@ impl Setup {
         scene.things.push(self.object.clone());
         if self.object.blend {
             // Something to be seen through the object, and something to be hidden by it.
-            scene.things.push(Thing::square(Vec3::new(-0.5, -0.9, -0.6), Vec3::Y, 1.5).of(glowing(0.4, 0.1, 0.3)));
+            scene
+                .things
+                .push(Thing::square(Vec3::new(-0.5, -0.9, -0.6), Vec3::Y, 1.5).with_material(glowing(0.4, 0.1, 0.3)));
         }
         if self.pane {
             let at = Transform::from_xyz(0.2, 0.8, 1.2).with_rotation(Quat::from_rotation_x(0.9));
             let pane = Thing { mesh: Plane { size: 0.7, divisions: 3 }.into(), ..self.object.clone() };
-            // Seen from the side that the object shows.
+            // From the side that the object shows.
             let over = Quat::from_rotation_x(if self.object.faces == Some(Faces::Back) { 3.0 } else { 0.0 });
             scene.things.push(pane.at(at.with_rotation(at.rotation * over)));
         }

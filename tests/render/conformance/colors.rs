@@ -6,7 +6,7 @@ use crate::render::scene::{Scene, Thing, other_material, point_light};
 use halfway::lighting::Frequency;
 use halfway::prelude::*;
 
-/// The mesh with colours that change along every axis, some beyond what is drawn, and opacities.
+/// The mesh with colours that change along every axis, some outside of 0 to 1, and opacities.
 pub(crate) fn colored(mesh: impl Into<Mesh>) -> Mesh {
     let mesh = mesh.into();
     let wave = |x: f32| 0.5 + 0.6 * x.sin();
@@ -31,7 +31,7 @@ fn lit() -> Scene {
 /// The change of a scene in a row.
 pub(super) type Change = (&'static str, fn(&mut Scene));
 
-/// The ways to shade.
+/// Shadings and mixtures of terms.
 pub(super) const SHADINGS: [Change; 5] = [
     ("flat", |scene| scene.view_shading = Some(Shading::Flat)),
     ("gouraud", |scene| scene.view_shading = Some(Shading::Gouraud)),

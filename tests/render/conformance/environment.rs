@@ -101,7 +101,7 @@ pub(super) fn rows() -> Vec<Row> {
             rows.push(Row::new(format!("environment, {shading}, {name}"), scene));
         }
     }
-    // It counts whatever the terms of lights.
+    // The environment is drawn whatever the lights' terms.
     let mut scene = surrounded();
     scene.things.iter_mut().for_each(|thing| thing.shading = Some(Shading::Terms(Terms::both(Frequency::Never))));
     rows.push(Row::new("environment, no terms", scene));
@@ -112,8 +112,7 @@ pub(super) fn rows() -> Vec<Row> {
     rows
 }
 
-/// Four samples a pixel, of which the sky is one, seen at its center: what mirrors most sharply, and what lies over
-/// edges.
+/// Four samples a pixel, with the sky evaluated at its center: the sharpest mirrors, and surfaces over edges.
 pub(super) fn rows_of_four() -> Vec<Row> {
     let kept = ["all", "harmonics alone", "a mirror", "sky", "sky behind what blends", "one light", "backs"];
     let changes = || CHANGES.into_iter().filter(|(what, _)| kept.contains(what));
@@ -124,7 +123,7 @@ pub(super) fn rows_of_four() -> Vec<Row> {
             change(&mut scene);
             shade(&mut scene);
             scene.camera.samples = Samples::Four;
-            // Which bytes are equal depends on where the samples lie.
+            // The number of equal bytes depends on the positions of the samples.
             rows.push(Row { raw: BLENDED, ..Row::new(format!("environment, four samples, {shading}, {what}"), scene) });
         }
     }

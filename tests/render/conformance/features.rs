@@ -1,4 +1,4 @@
-//! The rows of the conformance suite beside its axes: what a scene may have more than one of, or at all.
+//! The rows of the conformance suite beside its axes: features that a scene may have, once or several times.
 
 use super::Row;
 use crate::render::edges::screen;
@@ -9,13 +9,15 @@ use crate::render::sides::hemisphere;
 use halfway::lighting::Frequency;
 use halfway::prelude::*;
 
-/// A coarse sphere on a floor, whose parts face everywhere.
+/// A coarse sphere on a floor, whose triangles face all directions.
 pub(super) fn still_life() -> Scene {
     let mut scene = Scene::seen_from(Vec3::new(0.4, 1.4, 3.2), Vec3::new(0.0, -0.1, 0.0))
         .ambient(0.15)
         .with(Thing::new(UvSphere::new(0.8, 12, 6)))
         .with(
-            Thing::new(Plane { size: 4.0, divisions: 4 }).at(Transform::from_xyz(0.0, -0.8, 0.0)).of(other_material()),
+            Thing::new(Plane { size: 4.0, divisions: 4 })
+                .at(Transform::from_xyz(0.0, -0.8, 0.0))
+                .with_material(other_material()),
         );
     scene.camera.background = LinearRgba::rgb(0.1, 0.2, 0.3);
     scene
@@ -206,7 +208,7 @@ fn places_views_and_meshes() -> Vec<(&'static str, Scene)> {
             "objects through each other",
             with(|scene| {
                 let cube = Thing::new(Cuboid::new(1.3, 0.5, 1.9)).at(rotated(0.3, 0.5, 0.2));
-                scene.things.push(cube.of(other_material()).shaded(Shading::Flat));
+                scene.things.push(cube.with_material(other_material()).shaded(Shading::Flat));
             }),
         ),
         (
@@ -214,7 +216,7 @@ fn places_views_and_meshes() -> Vec<(&'static str, Scene)> {
             with(|scene| {
                 let pot =
                     Thing::new(Teapot::new(5)).at(Transform::from_xyz(-0.1, -0.6, 0.0).with_scale(Vec3::splat(0.42)));
-                scene.things[0] = pot.of(material()).faces(Faces::Both);
+                scene.things[0] = pot.with_material(material()).faces(Faces::Both);
             }),
         ),
         (

@@ -204,7 +204,7 @@ fn with_maps(kinds: &[(MapKind, f32)]) -> Scene {
             let map = Map { uv_set, channel, amount: *amount, ..map(Sampling::default(), transform) };
             thing.maps.push((*kind, map));
         }
-        // So that none is black.
+        // Emission, so that none is black.
         thing.material.emission = LinearRgba::rgb(0.1, 0.2, 0.15);
     }
     scene
@@ -253,8 +253,8 @@ pub(super) fn rows_of_kinds() -> Vec<Row> {
     rows_of(ALL.into_iter().chain([HEIGHTS]).map(|one| (one.0.name(), vec![one])))
 }
 
-/// Normals of which highlights take how long their mean is, or their moments: wherever some term is shaded at the
-/// fragments, under every reflectance, enlarged and reduced, and beside an image of shininess; of moments by filters of
+/// Normal maps whose highlights use the length of the mean or the moments: wherever some term is shaded at the
+/// fragments, under every reflectance, magnified and minified, and beside a shininess image; for moments by filters of
 /// each form.
 pub(super) fn rows_of_far_normals(far_normals: FarNormals) -> Vec<Row> {
     let far = |scale: f32, amount: f32| {
@@ -341,7 +341,7 @@ pub(super) fn rows_of_masks_with_four_samples() -> Vec<Row> {
                 change(&mut scene);
                 shade(&mut scene);
                 scene.camera.samples = Samples::Four;
-                // Which bytes are equal depends on where the samples lie.
+                // The number of equal bytes depends on the positions of the samples.
                 let row = Row::new(format!("mask, four samples, {kind}, {shading}, {what}"), scene);
                 rows.push(Row { raw: BLENDED, ..row });
             }
@@ -355,8 +355,8 @@ fn rows_of(each: impl Iterator<Item = (&'static str, Vec<(MapKind, f32)>)>) -> V
     for (name, kinds) in each {
         for (number, (what, change)) in CIRCUMSTANCES.iter().enumerate() {
             for (shading, shade) in SHADINGS {
-                // Each by itself in one case, and in all others where it makes a difference.
-                let turns = kinds.iter().any(|(kind, _)| kind.is_relief() || *kind == MapKind::Shininess);
+                // Each alone in one case, and in all others where it makes a difference.
+                let turns = kinds.iter().any(|(kind, _)| kind.perturbs_normals() || *kind == MapKind::Shininess);
                 if number > 0 && !(turns && shading == "phong") {
                     continue;
                 }

@@ -1,7 +1,7 @@
-//! Rows that the CPU draws, whatever else is tested: drivers are off by more than is allowed where four samples see a
-//! mask or an environment (llvmpipe by up to 5e-2 of the range where a triangle covers a pixel in part, and why is not
-//! known), and the planted faults are there for the judge. They are the same on every adapter: `cargo xtask test` runs
-//! them once, with all tests, and not again on the adapters that it tries after.
+//! Rows that the CPU draws under every adapter: drivers exceed the bars for four samples with a mask or an environment
+//! (llvmpipe by up to 5e-2 of the range where a triangle covers part of a pixel, for an unknown reason), and the
+//! planted faults test the judge. They are the same on every adapter: `cargo xtask test` runs them once, with all
+//! tests, and not again on the adapters that it tests afterwards.
 
 use super::{FLOAT, Row, SIZE, Scene, conform_on, environment, maps};
 use crate::render::compare::judge;

@@ -15,7 +15,7 @@ fn bright() -> Scene {
 fn bright_and_blended() -> Scene {
     let mut scene = bright();
     scene.things.push(Thing::square(Vec3::new(0.2, 0.2, 1.2), Vec3::Z, 0.9).blended(0.5));
-    let pane = Thing::square(Vec3::new(-0.3, 0.1, 1.4), Vec3::Z, 0.6).of(glowing(2.0, 3.0, 0.5));
+    let pane = Thing::square(Vec3::new(-0.3, 0.1, 1.4), Vec3::Z, 0.6).with_material(glowing(2.0, 3.0, 0.5));
     scene.things.push(pane.blended(0.4));
     scene
 }
@@ -49,7 +49,7 @@ pub(super) fn rows(samples: Samples) -> Vec<Row> {
     ];
     let mut rows = Vec::new();
     for (name, scene) in scenes {
-        // The smooth one comes after a picture with the divisor that it has alone.
+        // Smoothing follows a picture whose divisor is the same as its own.
         for (policy, intensity) in POLICIES {
             let mut scene = scene();
             (scene.camera.intensity, scene.camera.samples) = (intensity, samples);
@@ -58,7 +58,7 @@ pub(super) fn rows(samples: Samples) -> Vec<Row> {
                 scene.view_shading = Some(Shading::Flat);
             }
             let row = Row::new(format!("{policy}, {name}, {samples:?}"), scene);
-            // Of four samples the oracle judges by what may be shown.
+            // Pictures with four samples are judged by their possible colours.
             rows.push(Row { raw: if samples == Samples::Four { BLENDED } else { row.raw }, ..row });
         }
     }

@@ -68,7 +68,7 @@ fn each_solid(scene: &mut Scene, change: impl Fn(SolidTexture) -> SolidTexture) 
     scene.things.iter_mut().for_each(|thing| thing.solid = thing.solid.map(&change));
 }
 
-/// Every kind under every way to shade, and under each of these what else there may be, the kinds in turns.
+/// Every kind under every shading, and each further feature under every shading, with the kinds in turn.
 pub(super) fn rows() -> Vec<Row> {
     let mut rows = Vec::new();
     for (number, (shading, shade)) in SHADINGS.into_iter().enumerate() {

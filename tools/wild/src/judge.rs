@@ -17,11 +17,11 @@ use crate::shrink::shrink;
 /// Draws scenes with one adapter and judges the pictures by the oracle, as `halfway verify` does.
 ///
 /// Everywhere, in floating point, a value may be off by 2 · 10⁻³ of the range, as by [`Bars::FLOAT`]. Its bar for 99.9
-/// % of the values does not hold for scenes of all kinds: of a slope of up to 4 % of the range within 1/16 of a pixel,
-/// more than which the judge takes for an edge, half a unit of a grid of 1/256 of a pixel makes up to 1.3 · 10⁻³, and a
-/// small object may show hardly anything but slopes. A byte may be off by one step; where something is blended by one
-/// step more for each blended object, since each layer is rounded to bytes. Scenes with four samples a pixel are drawn
-/// and judged with one, unless asked for.
+/// % of the values does not hold for all scenes: the judge takes a slope of more than 4 % of the range within 1/16 of a
+/// pixel for an edge; on a gentler one half a unit of a grid of 1/256 of a pixel causes errors of up to 1.3 · 10⁻³, and
+/// a small object may show hardly anything but slopes. A byte may be off by one step, and by one more for each blended
+/// object, since each layer is rounded to bytes. Scenes with four samples a pixel are drawn and judged with one by
+/// default.
 pub struct Judge {
     adapter: Adapter,
     base_dir: PathBuf,
@@ -29,7 +29,7 @@ pub struct Judge {
     four: bool,
     steps: Option<f32>,
     fault: Option<Fault>,
-    /// Whether only wrong or right is asked, and not the figures.
+    /// Whether to stop at the first wrong pixel, without the figures.
     until_wrong: bool,
 }
 
@@ -98,8 +98,8 @@ impl Judge {
         Self { four, ..self }
     }
 
-    /// Draws everything within so many steps, and judges it by that. Spheres, planes and teapots are refined, so that
-    /// they have patches.
+    /// Draws everything with this tolerance in steps, and judges it accordingly. Spheres, planes and teapots are
+    /// refined, so that they have patches.
     #[must_use]
     pub fn within(self, steps: f32) -> Self {
         Self { steps: Some(steps), ..self }

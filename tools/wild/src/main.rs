@@ -92,7 +92,7 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
                 failed += 1;
                 println!("\nscene {number} fails: {finding}");
                 let small = judge.shrunk(&drawn, &finding, arguments.trials);
-                tell(arguments, number, &judge, &small)?;
+                report_failure(arguments, number, &judge, &small)?;
             }
         }
     }
@@ -120,7 +120,7 @@ fn write_images(folder: &Path) -> Result<(), String> {
 }
 
 /// Prints a reduced scene and writes it.
-fn tell(arguments: &Arguments, number: u64, judge: &Judge, small: &Value) -> Result<(), (u8, String)> {
+fn report_failure(arguments: &Arguments, number: u64, judge: &Judge, small: &Value) -> Result<(), (u8, String)> {
     let text = written(small);
     let file = file(&arguments.output, arguments.seed, number);
     if let Err(finding) = judge.judge(small) {

@@ -32,7 +32,7 @@ impl RngExt for Rng {
     }
 
     fn choose<T: Copy>(&mut self, choices: &[T]) -> T {
-        // Not by `choice`: that draws a `usize`, which is another number on machines of 32 bits.
+        // Not by `choice`, which draws a `usize`: that differs on machines of 32 bits.
         choices[self.u64(..choices.len() as u64) as usize]
     }
 

@@ -2,13 +2,13 @@
 //!
 //! Most values are ordinary, so that most scenes show something; each may be extreme, and any key may be left out.
 
+mod appearance;
+mod environment;
 mod files;
 mod light;
-mod looks;
 mod mesh;
 mod normals;
-mod place;
-mod surroundings;
+mod positions;
 
 use fastrand::Rng;
 use serde_json::{Map, Value, json};
@@ -20,24 +20,24 @@ pub use files::IMAGES;
 /// Scene number `number` of a seed, as the JSON of a scene file: the same one on every machine.
 pub fn scene(seed: u64, number: u64) -> Value {
     let random = &mut for_scene(seed, number);
-    let unit = place::unit(random);
+    let unit = positions::unit(random);
     let objects = objects(random, unit);
     let lights = light::lights(random, unit, objects.len());
     let mut scene = Object::new();
     scene.set("size", json!([random.u64(64..=128), random.u64(64..=128)]));
-    scene.set("camera", place::camera(random, unit));
+    scene.set("camera", positions::camera(random, unit));
     scene.set("lights", lights);
     scene.set("objects", objects.into());
-    scene.perhaps(random, 50, "background", |random| looks::color(random, 0.3));
+    scene.perhaps(random, 50, "background", |random| appearance::color(random, 0.3));
     scene.perhaps(random, 50, "output", |random| random.choose(&["srgb", "raw"]).into());
     scene.perhaps(random, 15, "samples", |_| json!(4));
-    scene.perhaps(random, 60, "ambient", |random| looks::color(random, 0.4));
+    scene.perhaps(random, 60, "ambient", |random| appearance::color(random, 0.4));
     scene.perhaps(random, 30, "viewer", |random| random.choose(&["local", "infinite"]).into());
-    scene.perhaps(random, 80, "shading", looks::shading);
-    scene.perhaps(random, 70, "reflectance", looks::reflectance);
-    scene.perhaps(random, 35, "intensity", looks::intensity);
-    scene.perhaps(random, 20, "environment", surroundings::environment);
-    // Last, so that all else is as it would be without; not in an environment, which some adapters leave out for solids
+    scene.perhaps(random, 80, "shading", appearance::shading);
+    scene.perhaps(random, 70, "reflectance", appearance::reflectance);
+    scene.perhaps(random, 35, "intensity", appearance::intensity);
+    scene.perhaps(random, 20, "environment", environment::environment);
+    // Last, so that all other numbers stay the same; not in an environment, in which some adapters do not draw solids
     // and images.
     if !scene.0.contains_key("environment")
         && let Some(Value::Array(objects)) = scene.0.get_mut("objects")
@@ -48,8 +48,8 @@ pub fn scene(seed: u64, number: u64) -> Value {
     scene.into()
 }
 
-/// Puts normal maps on some objects, most of which are then lit at the pixels. An object at the position of another has
-/// the same map or none; likewise for solids.
+/// Puts normal maps on some objects, most of which are then lit at the pixels. An object at the position of another
+/// gets the same map or none; likewise for solids.
 fn turn_normals(random: &mut Rng, objects: &mut [Value]) {
     for at in 0..objects.len() {
         if is_twin(objects, at) {
@@ -70,7 +70,7 @@ fn is_twin(objects: &[Value], at: usize) -> bool {
     at > 0 && ["mesh", "transform"].iter().all(|key| objects[at][key] == objects[at - 1][key])
 }
 
-/// Whether an object on top of another has what that has.
+/// Whether an object on top of another gets the same map or solid.
 fn has_the_same(at: usize) -> bool {
     at.is_multiple_of(2)
 }
@@ -81,7 +81,7 @@ fn cut(random: &mut Rng, unit: f64, objects: &mut [Value]) {
         let solid = if is_twin(objects, at) {
             objects[at - 1].get("solid").filter(|_| has_the_same(at)).cloned()
         } else {
-            random.percent(8).then(|| looks::solid(random, unit))
+            random.percent(8).then(|| appearance::solid(random, unit))
         };
         if let Some(solid) = solid {
             objects[at]["solid"] = solid;
@@ -102,7 +102,7 @@ fn objects(random: &mut Rng, unit: f64) -> Vec<Value> {
         let mut object = match objects.last() {
             Some(last) if random.percent(4) => last.clone(),
             Some(last) if random.percent(10) => {
-                json!({"mesh": last["mesh"], "transform": place::transform(random, unit)})
+                json!({"mesh": last["mesh"], "transform": positions::transform(random, unit)})
             }
             _ => object(random, unit),
         };
@@ -115,15 +115,15 @@ fn objects(random: &mut Rng, unit: f64) -> Vec<Value> {
 fn object(random: &mut Rng, unit: f64) -> Value {
     let mut object = Object::new();
     object.set("mesh", mesh::mesh(random, unit));
-    object.perhaps(random, 90, "transform", |random| place::transform(random, unit));
+    object.perhaps(random, 90, "transform", |random| positions::transform(random, unit));
     object.perhaps(random, 20, "normals", |random| {
         random.choose(&["keep", "face", "uniform", "area", "angle", "max"]).into()
     });
-    object.perhaps(random, 85, "material", looks::material);
-    object.perhaps(random, 15, "back_material", looks::material);
+    object.perhaps(random, 85, "material", appearance::material);
+    object.perhaps(random, 15, "back_material", appearance::material);
     object.perhaps(random, 60, "faces", |random| random.choose(&["front", "back", "both", "both"]).into());
-    object.perhaps(random, 25, "shading", looks::shading);
-    object.perhaps(random, 25, "reflectance", looks::reflectance);
+    object.perhaps(random, 25, "shading", appearance::shading);
+    object.perhaps(random, 25, "reflectance", appearance::reflectance);
     object.perhaps(random, 10, "vertex_colors", |random| random.choose(&["multiply", "ignore"]).into());
     object.perhaps(random, 22, "blend", |_| json!(true));
     object.into()

@@ -1,8 +1,8 @@
 //! Reduces a scene that fails: delta debugging on its JSON.
 //!
-//! A step takes something away, or writes a number shorter, and stands if the scene still fails. Steps are taken in
-//! turn until none stands: parts of lists, then keys (the format's defaults hold), then the triangles of written-out
-//! meshes, then numbers.
+//! A step removes something, or shortens a number, and is kept if the scene still fails. Steps are tried in turn until
+//! none is kept: parts of lists, then keys (the format's defaults hold), then the triangles of written-out meshes, then
+//! numbers.
 
 use std::ops::Range;
 
@@ -71,7 +71,7 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
         stands
     }
 
-    /// Takes away all, halves, quarters … and at last single ones of as many as there are.
+    /// Removes all, halves, quarters … and at last single ones of the parts.
     fn drop_parts(&mut self, length: impl Fn(&Value) -> usize, drop: impl Fn(&mut Value, Range<usize>)) {
         let mut part = length(&self.best);
         while part > 0 {
@@ -85,7 +85,7 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
         }
     }
 
-    /// Takes objects and lights away.
+    /// Removes objects and lights.
     fn shorten_lists(&mut self) {
         for list in ["objects", "lights"] {
             let drop = |scene: &mut Value, gone| {
@@ -97,11 +97,10 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
         }
     }
 
-    /// Takes keys away wherever they are. The camera, the lights and the size stay: without
-    /// them the format puts in its own, which are no simpler.
+    /// Removes keys everywhere. The camera, the lights and the size stay: their defaults are no simpler.
     fn remove_keys(&mut self) {
         let mut paths = paths(&self.best, &Value::is_object);
-        // Outer keys first: they take the inner ones along.
+        // Outer keys first: removing one removes its inner keys.
         paths.sort_by_key(|path| path.matches('/').count());
         for path in paths {
             let Some(Value::Object(keys)) = self.best.pointer(&path) else { continue };
@@ -119,7 +118,7 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
         }
     }
 
-    /// Puts simpler meshes in the place of others, and takes triangles away.
+    /// Replaces meshes by simpler ones, and removes triangles.
     fn simplify_meshes(&mut self) {
         for i in 0..self.best["objects"].as_array().map_or(0, Vec::len) {
             for simple in ["plane", "box", "uv_sphere"] {
@@ -190,7 +189,7 @@ fn paths(value: &Value, wanted: &dyn Fn(&Value) -> bool) -> Vec<String> {
     found
 }
 
-/// Takes triangles of a written-out mesh away, and the vertices that no other triangle has.
+/// Removes triangles of an inline mesh, and the vertices that no other triangle uses.
 fn drop_triangles(mesh: &mut Value, gone: Range<usize>) {
     let Some(Value::Object(inline)) = mesh.get_mut("inline") else { return };
     let Some(indices) = inline.get("indices").and_then(Value::as_array) else { return };
@@ -217,7 +216,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    /// Two objects matter, and of the first that it is red.
+    /// Fails for two objects of which the first is red.
     fn two_matter(scene: &Value) -> bool {
         let objects = scene["objects"].as_array().unwrap();
         objects.iter().any(|object| object["color"][0].as_f64().is_some_and(|red| red > 0.5))

@@ -9,8 +9,9 @@ use halfway::scene::{MaterialEntry, SceneFile};
 use halfway_wild::{Fault, Finding, Judge, scene, written};
 use serde_json::Value;
 
-/// Scenes that failed once, small. Those in the folder `known` inside still do, those in `known/cpu` on the CPU, those
-/// in `known/swiftshader` and `known/opengl` by those; those in `four` failed on the CPU with four samples a pixel.
+/// Small scenes that failed once. Those in its folder `known` still fail: those in `known/cpu` on the CPU, those in
+/// `known/swiftshader` and `known/opengl` on these drivers. Those in `four` failed on the CPU with four samples a
+/// pixel.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/wild");
 
 /// The adapter of the environment variables, else a graphics adapter.
@@ -38,7 +39,7 @@ fn judges() -> Vec<(&'static str, Judge)> {
     by_a_driver.into_iter().chain([("on the CPU", judge_of(&AdapterChoice::cpu()))]).collect()
 }
 
-/// The adapter under test by the environment, where each adapter is tried.
+/// The adapter under test, if the environment names one.
 fn tried() -> Option<String> {
     std::env::var("HALFWAY_TESTED_ADAPTER").ok()
 }
@@ -99,7 +100,7 @@ fn light_lists_keep_to_their_steps() {
     }
 }
 
-/// The scene with a dozen weak lights more: more than a shader takes without lists.
+/// The scene with a dozen more weak lights: more than a shader takes without lists.
 fn with_many_lights(mut scene: Value) -> Value {
     let mut lights = scene["lights"].as_array().cloned().unwrap_or_default();
     for number in 0..12_u8 {
@@ -111,9 +112,9 @@ fn with_many_lights(mut scene: Value) -> Value {
     scene
 }
 
-/// Lights that are missing, and would show by more than was allowed, are found.
+/// Missing lights whose effect exceeds the tolerance are found.
 #[test]
-fn light_that_is_missing_is_found() {
+fn missing_light_is_found() {
     let judge = judge_of(&AdapterChoice::cpu()).within(1.0).with_fault(without_last_light).until_wrong();
     let found = (0..16).filter(|&number| judge.judge(&scene(SEED, number)).is_err()).count();
     assert!(found >= 4, "found in {found} of 16 scenes");
@@ -124,7 +125,7 @@ const SEED: u64 = 1;
 
 #[test]
 fn scenes_that_failed_once_are_right() {
-    // The CPU is tried beside the first of the drivers. Failures of one driver have its name among the known ones.
+    // The CPU is tested with the first of the drivers. Failures of one driver are known by its name.
     let count = if tried().is_some() { 1 } else { 2 };
     let known = Path::new(KEPT).join(known());
     for (by, judge) in judges().into_iter().take(count) {
@@ -138,7 +139,7 @@ fn scenes_that_failed_once_are_right() {
     }
 }
 
-/// Drivers of today have faults of their own with four samples: decision 0029.
+/// Current drivers have faults with four samples: decision 0029.
 #[test]
 fn scenes_that_failed_once_with_four_samples_are_right() {
     let judge = judge_of(&AdapterChoice::cpu()).with_four_samples(true);
@@ -151,7 +152,7 @@ fn scenes_that_failed_once_with_four_samples_are_right() {
     }
 }
 
-/// Failures that are fixed move up, to the scenes that are right. Failures of hardware are not known.
+/// Fixed failures are moved up to the scenes that are right. Failures of hardware are not recorded.
 #[test]
 fn known_failures_fail() {
     let on_the_cpu = tried().is_none().then(|| ("known/cpu", judge_of(&AdapterChoice::cpu())));
@@ -196,8 +197,8 @@ fn with_another_environment(scene: &mut SceneFile) {
     }
 }
 
-/// The fault is found within 40 scenes, and the scene that shows it has so many objects in the end. It is planted into
-/// the scene, so that it does not matter who draws: the CPU compiles no shaders.
+/// The fault is found within 40 scenes, and the minimised scene has this many objects. The fault is planted into the
+/// scene, so that any renderer shows it; the CPU is used, since it compiles no shaders.
 fn is_found_and_made_small(fault: Fault, objects: RangeInclusive<usize>) {
     is_found_among(0..40, fault, objects);
 }
@@ -206,7 +207,7 @@ fn is_found_among(numbers: impl Iterator<Item = u64>, fault: Fault, objects: Ran
     let right = judge_of(&AdapterChoice::cpu());
     let faulty = judge_of(&AdapterChoice::cpu()).with_fault(fault).until_wrong();
     let found = numbers.map(|number| scene(SEED, number)).find_map(|scene| {
-        // Scenes to which one more object matters, such as those it takes to see something.
+        // Scenes with more than two objects leave something to minimise.
         let finding = if scene["objects"].as_array()?.len() > 2 { faulty.judge(&scene).err()? } else { return None };
         right.judge(&scene).is_ok().then_some((scene, finding))
     });
@@ -219,23 +220,23 @@ fn is_found_among(numbers: impl Iterator<Item = u64>, fault: Fault, objects: Ran
 }
 
 #[test]
-fn a_light_less_is_found_and_made_small() {
+fn a_missing_light_is_found_and_minimised() {
     is_found_and_made_small(without_last_light, 1..=2);
 }
 
 #[test]
-fn broader_highlights_are_found_and_made_small() {
+fn broader_highlights_are_found_and_minimised() {
     is_found_and_made_small(with_broader_highlights, 1..=2);
 }
 
 #[test]
-fn undone_mirrors_are_found_and_made_small() {
+fn undone_mirrors_are_found_and_minimised() {
     // From the last on, as the first that shows it takes minutes to judge a hundred times.
     is_found_among((0..40).rev(), with_mirrors_undone, 1..=2);
 }
 
 /// An environment shows without any object.
 #[test]
-fn a_turned_environment_is_found_and_made_small() {
+fn a_turned_environment_is_found_and_minimised() {
     is_found_and_made_small(with_another_environment, 0..=2);
 }

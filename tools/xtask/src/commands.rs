@@ -132,7 +132,7 @@ cargo output
     }
 
     #[test]
-    fn quotes_keep_what_they_hold() {
+    fn quotes_keep_their_contents() {
         let rows = [
             ("a 'b c' d", vec!["a", "b c", "d"]),
             ("a'b'\"c\"d", vec!["abcd"]),

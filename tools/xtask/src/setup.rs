@@ -11,7 +11,7 @@ use crate::failure::{Failure, Result};
 /// Whether set-up may change the machine.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Setup {
-    /// Install nothing; say what is missing and how to get it
+    /// Install nothing; list missing requirements and their packages
     #[arg(long)]
     pub(crate) no_install: bool,
 }
@@ -185,8 +185,8 @@ fn refusal(missing: &[Need], why: &str) -> Failure {
     ))
 }
 
-/// A command of apt-get, by `sudo` for others than root, where that asks for no password. `env` stands behind `sudo`,
-/// which hands no variable on; this one keeps packages from asking questions.
+/// A command of apt-get, by `sudo` for users other than root if that asks for no password. `env` follows `sudo`, which
+/// passes no variables on; the variable keeps packages from asking questions.
 fn apt(words: &[&str]) -> Command {
     let user = Command::new("id").arg("-u").output();
     let is_root = user.is_ok_and(|output| output.stdout.trim_ascii() == b"0");
@@ -198,7 +198,7 @@ fn apt(words: &[&str]) -> Command {
     command
 }
 
-/// Where a program is: on the search path, or in the folders of administrators, which are not on everybody's.
+/// The path of a program: on the search path, or in the folders of administrators, which are not on every user's path.
 pub(crate) fn find(name: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let folders = std::env::split_paths(&path).chain(["/usr/sbin", "/sbin"].map(PathBuf::from));

@@ -18,7 +18,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Takes in the results of another run.
+    /// Adds the results of another run.
     pub(crate) fn add(&mut self, other: Self) {
         self.programs += other.programs;
         self.passed += other.passed;
@@ -26,7 +26,7 @@ impl Tally {
         self.ignored.extend(other.ignored);
     }
 
-    /// Takes in a line of the output.
+    /// Parses a line of the output.
     fn line(&mut self, line: &str) {
         if let Some(counts) = line.strip_prefix("test result: ") {
             self.programs += 1;
@@ -42,7 +42,7 @@ impl Tally {
     }
 }
 
-/// Runs tests, hands on what they print, and counts it. The second part says whether all went well.
+/// Runs tests, passes their output on, and counts the results. The second part is the success of the run.
 ///
 /// # Errors
 /// The command cannot be started, or what it prints cannot be read.
@@ -52,7 +52,7 @@ pub(crate) fn counted(title: &str, command: &mut Command) -> Result<(Tally, Resu
     let mut tally = Tally::default();
     let mut output = BufReader::new(child.stdout.take().ok_or_else(|| Failure::new("no output to read"))?);
     let mut line = Vec::new();
-    // Bytes, because tests may print what is no text.
+    // Bytes, because tests may print invalid UTF-8.
     while output.read_until(b'\n', &mut line).map_err(|error| not_started(command, &error))? > 0 {
         let text = String::from_utf8_lossy(&line);
         print!("{text}");

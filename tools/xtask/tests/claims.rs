@@ -1,4 +1,4 @@
-//! Claims of the documents about tests hold: a sentence that speaks of a test names one that exists.
+//! Claims of the documents about tests: a sentence that mentions a test names one that exists.
 
 use std::collections::BTreeSet;
 use std::fs;

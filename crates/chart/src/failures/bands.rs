@@ -53,7 +53,7 @@ pub(super) fn terminator() -> Result<FailurePage, ChartError> {
         cause: "max(n·l, 0) has a corner where light turns to shadow. A vertex on the lit side lights all of its \
                 cells, also where they lie in the dark: Gouraud shading cuts the corner off, and the terminator follows the edges of the mesh.",
         remedy: "Shade at pixels, where the corner is met; it is the diffuse term that needs it, not the highlight.",
-        test: "gouraud_lights_what_is_in_the_dark",
+        test: "gouraud_leaks_light_over_the_terminator",
         figures: vec![figure_of_row("terminator", "Intensity along a row of pixels across the terminator", &all)],
         pictures: shown([("flat", flat), ("Gouraud", gouraud), ("Phong", phong), ("true sphere", truth)]),
     })
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn gouraud_lights_what_is_in_the_dark() {
+    fn gouraud_leaks_light_over_the_terminator() {
         let [_, gouraud, phong, truth] = &pictures(SIDE).unwrap();
         // The most light where the true sphere is black, at least a few pixels from its edge.
         let dark = |image: &Image| {

@@ -82,10 +82,10 @@ fn crossing(hides: impl Fn(f64, f64) -> bool) -> Image {
     Image::new(SIZE.x, SIZE.y, (0..SIZE.x * SIZE.y).map(pixel).collect())
 }
 
-pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
+pub(super) fn page(renderers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
     let distances = DISTANCES.map(|power| 2f64.powi(power));
     let mut lines = Vec::new();
-    for ChartedAdapter { name, adapter } in drawers {
+    for ChartedAdapter { name, adapter } in renderers {
         let found = parted(adapter, &distances)?;
         let points: Vec<_> = found.into_iter().filter_map(|(distance, gap)| Some((distance, gap?))).collect();
         lines.push(series(&format!("{name}, measured"), 2 + lines.len(), &points, true));
@@ -99,7 +99,7 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
                 times 2⁻²⁴ on, 0.6 % at a hundred thousand times the near plane's distance n.",
         remedy: "Reversed depth, n/d, in floating point, as this project has it: gaps of about 2⁻²³ at any distance. Else move \
                  the near plane away.",
-        test: "reversed_depth_parts_what_standard_depth_does_not",
+        test: "reversed_depth_separates_closer_surfaces",
         figures: vec![figure(
             "depth",
             "The least gap between two surfaces that the nearer one hides (powers of two)",
@@ -117,12 +117,12 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::failures::testing::test_drawers;
+    use crate::failures::testing::test_renderers;
 
     #[test]
-    fn reversed_depth_parts_what_standard_depth_does_not() {
+    fn reversed_depth_separates_closer_surfaces() {
         let distances: Vec<f64> = (1..=17).map(|power| 2f64.powi(power)).collect();
-        for ChartedAdapter { name, adapter } in test_drawers() {
+        for ChartedAdapter { name, adapter } in test_renderers() {
             for (distance, gap) in parted(adapter, &distances).expect("squares can be drawn") {
                 // f32 tells these apart, with room for a few roundings on the way to the depth.
                 assert!(gap.is_some_and(|gap| gap <= 2f64.powi(-21)), "{name} at {distance}: {gap:?}");

@@ -68,9 +68,9 @@ fn by_definition(distance: f64) -> Result<f64, ChartError> {
     Ok(channels.map(|(there, near)| (there / near - 1.0).abs()).fold(0.0, f64::max))
 }
 
-pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
+pub(super) fn page(renderers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
     let mut lines = Vec::new();
-    for ChartedAdapter { name, adapter } in drawers {
+    for ChartedAdapter { name, adapter } in renderers {
         for (words, distant) in [("the light", Distant::Light), ("the viewer", Distant::Viewer)] {
             lines.push(series(&format!("{name}, {words}"), lines.len(), &errors(adapter, distant)?, true));
         }
@@ -86,7 +86,7 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
                 lamp loses nothing.",
         remedy: "Keep the viewer within about 10⁴ times the distance between a lamp and what it lights, where 8 bits do not show \
                  it; a directional light has no place that could be rounded.",
-        test: "far_viewers_and_near_lights_lose_what_rounding_takes",
+        test: "rounding_bounds_errors_of_far_viewers_and_near_lights",
         figures: vec![figure(
             "distances",
             "Largest relative error against the oracle, floating-point target",
@@ -94,7 +94,7 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
             Panel::new("diffuse light of a lamp; errors below 10⁻⁹ are drawn there", lines),
         )],
         pictures: judged(
-            drawers,
+            renderers,
             (SIZE, Pixels::Float),
             ("viewer 113,000 units away, drawn", "20 times their difference", 20.0),
             |world| spawn(world, Distant::Viewer, 1.13e5),
@@ -105,11 +105,11 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::failures::testing::{slope, test_drawers};
+    use crate::failures::testing::{slope, test_renderers};
 
     #[test]
-    fn far_viewers_and_near_lights_lose_what_rounding_takes() {
-        for ChartedAdapter { name, adapter } in test_drawers() {
+    fn rounding_bounds_errors_of_far_viewers_and_near_lights() {
+        for ChartedAdapter { name, adapter } in test_renderers() {
             let near = errors(adapter, Distant::Light).expect("a lamp can be drawn");
             // A few roundings of the viewer's distance, 3, over that of the lamp; and of what is computed.
             for (distance, error) in &near {

@@ -44,9 +44,9 @@ fn slip(degrees: f64) -> f64 {
     DISTANCE * f64::from(f32::EPSILON) / 2.0 / degrees.to_radians().sin()
 }
 
-pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
+pub(super) fn page(renderers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
     let mut lines = Vec::new();
-    for ChartedAdapter { name, adapter } in drawers {
+    for ChartedAdapter { name, adapter } in renderers {
         lines.push(series(name, lines.len(), &errors(adapter)?, true));
     }
     lines.push(series(
@@ -71,7 +71,7 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
             Panel::new("diffuse light of a lamp half a unit above, viewer 3 units away", lines),
         )],
         pictures: judged(
-            drawers,
+            renderers,
             (SIZE, Pixels::Float),
             ("at 0.01°, drawn", "500 times their difference", 500.0),
             |world| spawn(world, 0.01),
@@ -82,11 +82,11 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::failures::testing::{slope, test_drawers};
+    use crate::failures::testing::{slope, test_renderers};
 
     #[test]
     fn errors_grow_with_one_over_the_angle() {
-        for ChartedAdapter { name, adapter } in test_drawers() {
+        for ChartedAdapter { name, adapter } in test_renderers() {
             let found = errors(adapter).expect("a square can be drawn");
             for (degrees, error) in &found {
                 let bound = 8.0 * slip(*degrees) + 16.0 * f64::from(f32::EPSILON);

@@ -37,9 +37,9 @@ fn bound(reflectance: Reflectance, exponent: f64) -> f64 {
     (roundings * exponent + 32.0) * f64::from(f32::EPSILON) / 2.0
 }
 
-pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
+pub(super) fn page(renderers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
     let mut lines = Vec::new();
-    for ChartedAdapter { name, adapter } in drawers {
+    for ChartedAdapter { name, adapter } in renderers {
         for (words, reflectance) in [("Phong", Reflectance::Phong), ("Blinn–Phong", Reflectance::BlinnPhong)] {
             let points = errors(adapter, reflectance, &EXPONENTS)?;
             lines.push(series(&format!("{name}, {words}"), lines.len(), &points, true));
@@ -62,7 +62,7 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
             Panel::new("where the highlight is above 0.01", lines),
         )],
         pictures: judged(
-            drawers,
+            renderers,
             (SIZE, Pixels::Float),
             ("shininess 10⁴, drawn", "500 times their difference", 500.0),
             |world| spawn(world, 10_000.0, Reflectance::BlinnPhong),
@@ -73,11 +73,11 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::failures::testing::{slope, test_drawers};
+    use crate::failures::testing::{slope, test_renderers};
 
     #[test]
     fn errors_grow_with_the_exponent_and_keep_to_its_bound() {
-        for ChartedAdapter { name, adapter } in test_drawers() {
+        for ChartedAdapter { name, adapter } in test_renderers() {
             for reflectance in [Reflectance::Phong, Reflectance::BlinnPhong] {
                 let found = errors(adapter, reflectance, &EXPONENTS).expect("highlights can be drawn");
                 for (exponent, error) in &found {

@@ -68,11 +68,11 @@ fn most(opacity: f64, each: f64) -> f64 {
     each / opacity
 }
 
-pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
+pub(super) fn page(renderers: &[ChartedAdapter]) -> Result<FailurePage, ChartError> {
     let mut panels = Vec::new();
     for opacity in OPACITIES {
         let mut lines = Vec::new();
-        for ChartedAdapter { name, adapter } in drawers {
+        for ChartedAdapter { name, adapter } in renderers {
             lines.push(series(name, lines.len(), &drawn(adapter, opacity)?, false));
         }
         lines.push(series("rounded after each layer, by arithmetic", 3, &rounded(opacity), false));
@@ -89,10 +89,10 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
                 nothing: many thin layers stop short of what they should reach, by up to ½/o steps for an opacity of o, and blue \
                 of 0.3 under 0.005 never shows. The CPU without a driver keeps tiles in floating point and rounds once.",
         remedy: "Blend into a floating-point target (Pixels::Float) and round once, or draw fewer layers of more opacity.",
-        test: "thin_layers_stop_short_by_what_roundings_add_up_to",
+        test: "thin_layers_stop_short_by_the_sum_of_roundings",
         figures: vec![Figure::new("failure-blended-layers", title, axes, panels)],
         pictures: judged(
-            drawers,
+            renderers,
             (SIZE, Pixels::Byte),
             ("1 to 64 layers of opacity 0.005 in 8 bits", "10 times their difference", 10.0),
             |world| spawn(world, OPACITIES[2]),
@@ -103,13 +103,13 @@ pub(super) fn page(drawers: &[ChartedAdapter]) -> Result<FailurePage, ChartError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::failures::testing::test_drawers;
+    use crate::failures::testing::test_renderers;
 
     #[test]
-    fn thin_layers_stop_short_by_what_roundings_add_up_to() {
+    fn thin_layers_stop_short_by_the_sum_of_roundings() {
         for opacity in [0.5f32, 0.05, 0.005] {
             let o = f64::from(opacity);
-            for ChartedAdapter { name, adapter } in test_drawers() {
+            for ChartedAdapter { name, adapter } in test_renderers() {
                 // A step a layer at most, and half a step of the last one; on the CPU nothing but the last.
                 let bound = if matches!(adapter, Adapter::Cpu(_)) { 0.0 } else { most(o, 1.0) };
                 for (count, error) in drawn(adapter, opacity).expect("layers can be drawn") {

@@ -1,4 +1,5 @@
-//! Known failure modes: a page for each, with pictures, a plot, the cause, the remedy, and the test that keeps it.
+//! Known failure modes: a page for each, with pictures, a plot, the cause, the remedy, and the test that checks its
+//! claims.
 //!
 //! Losses of methods are drawn by the oracle, independently of their implementation. Losses by rounding are drawn by
 //! the charted adapters and by the CPU without a driver, and compared with the oracle.
@@ -40,7 +41,7 @@ pub struct FailurePage {
     pub cause: &'static str,
     /// The remedy, in a line.
     pub remedy: &'static str,
-    /// The test that keeps the page's claims.
+    /// The test that checks the page's claims.
     pub test: &'static str,
     /// The error, over the quantity that it depends on; of several figures one is shown at a time.
     pub figures: Vec<Figure>,
@@ -104,9 +105,9 @@ pub const PAGES: u64 = (DRAWN.len() + JUDGED.len()) as u64;
 /// # Errors
 /// The first picture that could not be drawn.
 pub fn all(charted: &[ChartedAdapter], mut done: impl FnMut(&FailurePage)) -> Result<Vec<FailurePage>, ChartError> {
-    let drawers = prelude::drawers(charted)?;
+    let renderers = prelude::renderers(charted)?;
     let drawn = DRAWN.into_iter().map(|page| page());
-    let judged = JUDGED.into_iter().map(|page| page(&drawers));
+    let judged = JUDGED.into_iter().map(|page| page(&renderers));
     drawn.chain(judged).map(|page| page.inspect(&mut done)).collect()
 }
 
@@ -119,11 +120,11 @@ mod testing {
     use super::*;
 
     /// The adapters of these tests: the chosen one, and always the CPU without a driver.
-    pub(super) fn test_drawers() -> &'static [ChartedAdapter] {
+    pub(super) fn test_renderers() -> &'static [ChartedAdapter] {
         static DRAWERS: OnceLock<Vec<ChartedAdapter>> = OnceLock::new();
         DRAWERS.get_or_init(|| {
             let adapter = AdapterChoice::default().open().expect("an adapter");
-            prelude::drawers(&[ChartedAdapter { name: "the adapter".to_owned(), adapter }]).expect("the CPU draws")
+            prelude::renderers(&[ChartedAdapter { name: "the adapter".to_owned(), adapter }]).expect("the CPU draws")
         })
     }
 

@@ -51,7 +51,7 @@ pub(super) fn page() -> Result<FailurePage, ChartError> {
                 Gouraud shading keeps (1 + 1/(2h²))^(−3/2) of it over the middle of a cell, h in edge lengths, and over a vertex \
                 spreads the peak over the cells around. A lamp that moves flickers.",
         remedy: "Shade lights at pixels that are nearer than about two edges, or cut the surface finer there.",
-        test: "a_light_near_a_cell_keeps_what_the_formula_says",
+        test: "a_light_near_a_cell_loses_light_as_the_formula_says",
         figures: vec![
             figure(
                 "near-light-below",
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn a_light_near_a_cell_keeps_what_the_formula_says() {
+    fn a_light_near_a_cell_loses_light_as_the_formula_says() {
         for height in [0.2, 0.5, 1.0, 3.0] {
             let found = near_light(height, ABOVE_CELL).expect("a square can be drawn");
             // The height is rounded to f32.

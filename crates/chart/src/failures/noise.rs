@@ -67,7 +67,7 @@ pub(super) fn page() -> Result<FailurePage, ChartError> {
                 faces share their errors. On equilateral triangles flat shading is √(36/3.5) = 3.2 times as rough as shading \
                 with interpolated normals.",
         remedy: "Shade noisy scans with mean normals (Normals::Weighted), at vertices or at pixels, or smooth the mesh first.",
-        test: "flat_shading_is_rougher_by_what_means_save",
+        test: "flat_shading_is_rougher_than_mean_normals",
         figures: vec![figure(
             "noise",
             "RMS change of the intensity of a plane lit at 45°, reflectance 0.8",
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn flat_shading_is_rougher_by_what_means_save() {
+    fn flat_shading_is_rougher_than_mean_normals() {
         for sigma in [0.002, 0.01] {
             for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
                 let found = roughness(sigma, shading).expect("a sheet can be drawn");

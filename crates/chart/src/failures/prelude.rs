@@ -71,7 +71,7 @@ pub(super) fn show(world: &mut World, mesh: impl Into<Mesh>, material: Material,
     world.spawn((Mesh3d(mesh), material, shading, Transform::default())).id()
 }
 
-/// A mesh from numbers of this crate's own.
+/// A mesh from valid data of this crate.
 pub(super) fn made(positions: Vec<Vec3>, normals: Option<Vec<Vec3>>, indices: Vec<u32>) -> Mesh {
     sound(Mesh::from_parts(positions, normals, None, indices))
 }
@@ -117,13 +117,13 @@ pub(super) fn light(picture: &Image) -> f64 {
 }
 
 /// The renderers beside the oracle: the charted ones, and the CPU without a driver, if it is not among them.
-pub(super) fn drawers(charted: &[ChartedAdapter]) -> Result<Vec<ChartedAdapter>, ChartError> {
-    let mut drawers = charted.to_vec();
-    if !drawers.iter().any(|one| matches!(one.adapter, Adapter::Cpu(_))) {
+pub(super) fn renderers(charted: &[ChartedAdapter]) -> Result<Vec<ChartedAdapter>, ChartError> {
+    let mut renderers = charted.to_vec();
+    if !renderers.iter().any(|one| matches!(one.adapter, Adapter::Cpu(_))) {
         let adapter = AdapterChoice::cpu().open()?;
-        drawers.push(ChartedAdapter { name: "cpu".to_owned(), adapter });
+        renderers.push(ChartedAdapter { name: "cpu".to_owned(), adapter });
     }
-    Ok(drawers)
+    Ok(renderers)
 }
 
 /// Scenes that replace each other, drawn by an adapter and by the oracle, with every triangle and every light.
@@ -180,12 +180,12 @@ impl JudgedApp {
 /// The adapter's picture of a scene, the oracle's, and their difference times a factor; with the captions of the first
 /// and the last.
 pub(super) fn judged(
-    drawers: &[ChartedAdapter],
+    renderers: &[ChartedAdapter],
     (size, pixels): (UVec2, Pixels),
     (as_drawn, difference, factor): (&'static str, &'static str, f64),
     spawn: impl FnOnce(&mut World),
 ) -> Result<Vec<(&'static str, RgbImage)>, ChartError> {
-    let drawer = drawers.first().ok_or_else(|| ChartError::Scene("there is nothing that draws".to_owned()))?;
+    let drawer = renderers.first().ok_or_else(|| ChartError::Scene("there is nothing that draws".to_owned()))?;
     let mut judged = JudgedApp::new(&drawer.adapter, size, pixels);
     judged.set(spawn);
     let (drawn, truth) = (judged.picture()?, judged.truth()?);

@@ -246,7 +246,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn ranges_hold_what_is_shown() {
+    fn ranges_hold_all_shown_values() {
         let figure = example();
         let [x, y] = figure.ranges();
         assert!(x.0 < 0.0 && x.1 > 3f64.log10() && x.1 < 1.0, "{x:?}");

@@ -27,9 +27,9 @@ const QUANTITIES: [Quantity; 3] = [
     ("flip", "mean ꟻLIP", |figures| figures.flip),
 ];
 
-const LEAD: &str = "A pixel sees more than one texel where an image is reduced. What it should show is the mean of all that it \
-                    sees; what a filter makes of a few lookups is more or less near to that, and flickers more or less while \
-                    the camera moves. Down is nearer to the truth, left is faster.";
+const LEAD: &str = "A pixel covers more than one texel where an image is minified, and should show the mean of all of \
+                    them. Filters approximate it by a few lookups, with more or less error and flicker under a moving \
+                    camera. Down is nearer to the truth, left is faster.";
 
 impl Filters {
     /// Measures; `progress` counts [`FilterPlan::units`].

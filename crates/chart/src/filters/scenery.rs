@@ -111,8 +111,8 @@ impl FilterView {
         let focal = 0.5 * height / 30_f64.to_radians().tan();
         let texels = if self.tilt == 0.0 { 300.0 } else { 100.0 } * height / 120.0 / f64::from(SIDE);
         let ((sin, cos), (s, c)) = (self.tilt.to_radians().sin_cos(), self.turn.to_radians().sin_cos());
-        // With X and Y on the picture's plane, one unit before the eye, the ray (X, Y·cos + sin, Y·sin − cos) is where
-        // it meets the ground after 1/(cos − Y·sin).
+        // With X and Y on the picture's plane, one unit before the eye, the ray (X, Y·cos + sin, Y·sin − cos) hits the
+        // ground after 1/(cos − Y·sin).
         let x = [1.0 / focal, 0.0, -0.5 * width / focal];
         let y = [0.0, -1.0 / focal, 0.5 * height / focal];
         let both = |a: f64, b: f64, constant: f64| -> [f64; 3] {

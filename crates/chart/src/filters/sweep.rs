@@ -123,8 +123,8 @@ fn errors(
     Ok(found)
 }
 
-/// Times of lookups in f32, as in the CPU's rasterizer, over all pixels of all views. The filters take turns, each
-/// round begun by another one, after one that is not timed.
+/// Times of lookups in f32, as in the CPU's rasterizer, over all pixels of all views. The filters take turns; each
+/// round begins with another filter, after an untimed lookup.
 fn timed(plan: &FilterPlan, pyramid: &Pyramid, still: &[PlanePicture], figures: &mut [FilterFigures]) {
     let single = |&([u, v], [x, y]): &Lookup<f64>| -> Lookup<f32> {
         ([u as f32, v as f32], [[x[0] as f32, x[1] as f32], [y[0] as f32, y[1] as f32]])

@@ -32,7 +32,7 @@ impl Over {
     /// All.
     pub const ALL: [Self; 2] = [Self::Lights, Self::Distance];
 
-    /// In words.
+    /// Its name in charts.
     pub fn name(self) -> &'static str {
         match self {
             Self::Lights => "number of point lights",

@@ -128,7 +128,7 @@ impl Fronts {
                     "Errors are those of the 8-bit picture that is timed, in steps of 1/255, against the reference \
                      renderer’s in double precision: over the pixels that both cover, or over the whole picture, \
                      silhouettes included and nothing made equal first, where the truth about a pixel is the mean of \
-                     {0} × {0} samples. What is drawn with one sample a pixel is judged by its middle inside of \
+                     {0} × {0} samples. Pictures with one sample a pixel are compared at pixel centres inside \
                      surfaces.",
                     self.plan.samples
                 ),

@@ -86,7 +86,7 @@ pub fn stone_mesh(segments: u32, rings: u32) -> Result<Mesh, MeshError> {
     let (mesh, _) = smooth.displaced(|i| {
         let p = smooth.positions()[i];
         let hills = (3.0 * p.x + 1.0).sin() * (4.0 * p.y).sin() + 0.4 * (9.0 * p.z + 5.0 * p.x).sin();
-        // A scanner's noise is about a thousandth of what it sees, and the same at the vertices of one place.
+        // A scanner's noise is about a thousandth of the object, and the same at vertices of one position.
         0.07 * hills + 0.002 * (random(place(p), 0) - 0.5)
     })?;
     Ok(mesh)

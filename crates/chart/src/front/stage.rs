@@ -38,7 +38,7 @@ pub(super) struct SceneStage {
 }
 
 impl SceneStage {
-    /// To be drawn by `adapter` with this method.
+    /// The scene, drawn by `adapter` with this method.
     pub(super) fn drawn(
         scene: &ChartedScene,
         detail: SceneDetail,
@@ -66,7 +66,7 @@ impl SceneStage {
         (scene.build)(&mut app, detail).map_err(ChartError::Scene)?;
         app.finish();
         app.cleanup();
-        // Spawns what systems spawn.
+        // Runs the systems that spawn entities.
         app.update();
         meshes.simplify(app.world_mut(), detail);
         if let Some(reflectance) = scene.reflectance {
@@ -87,7 +87,7 @@ impl SceneStage {
         let world = stage.app.world_mut();
         let encoding =
             world.query::<&Camera>().iter(world).next().map_or_else(Encoding::default, |camera| camera.encoding);
-        // Everything is in its place once transforms have been carried over.
+        // A frame propagates the transforms.
         stage.app.update();
         let oracle = Oracle::new(stage.app.world_mut(), size)?.with_mode(Mode::Surface);
         let center = oracle.draw();

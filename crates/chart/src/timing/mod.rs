@@ -33,7 +33,7 @@ pub enum TimedShading {
 }
 
 impl TimedShading {
-    /// A material of this ambient and diffuse color with a white highlight of shininess 32; unlit if the look is
+    /// A material of this ambient and diffuse color with a white highlight of shininess 32; unlit if the shading is
     /// constant.
     pub fn material(self, color: LinearRgba) -> Material {
         let lit = Material { specular: LinearRgba::WHITE, shininess: 32.0, ..Material::matte(color) };
@@ -43,7 +43,7 @@ impl TimedShading {
         }
     }
 
-    /// The shading of objects; ignored if the look is constant.
+    /// The shading of objects; Phong, which has no effect, if it is constant.
     pub fn shading(self) -> Shading {
         match self {
             Self::Constant => Shading::default(),
@@ -62,7 +62,7 @@ pub fn frame(app: &mut App) -> Result<(), RenderError> {
     if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
         return Err(error.clone());
     }
-    Adapter::of(world).ok_or(RenderError::NoAdapter)?.finish()
+    Adapter::from_world(world).ok_or(RenderError::NoAdapter)?.finish()
 }
 
 /// Runs frames until three in a row are alike, since the first ones build pipelines and upload meshes: the number of

@@ -133,7 +133,7 @@ fn chart_json_has_every_point_by_its_keys() {
         let here = || points.iter().filter(|point| point["scene"] == scene);
         let front: Vec<_> = here().filter(|point| point["front"] == true).map(place).collect();
         assert!(!front.is_empty());
-        // Nothing of the scene is faster than one of the front and errs less.
+        // No point of the scene is both faster and more accurate than one of the front.
         for point in here() {
             let [time, error] = place(point);
             assert!(front.iter().all(|[t, e]| time >= *t || error >= *e), "{point}");
@@ -141,7 +141,8 @@ fn chart_json_has_every_point_by_its_keys() {
     }
 }
 
-/// Near and far lights differ by less the farther away the near one is; from 1000 radii on by nothing that is seen.
+/// The farther away a near light is, the less it differs from a far one; from 1000 radii on the difference is
+/// invisible.
 #[test]
 fn a_far_light_may_stand_for_one_that_is_far_enough() {
     let over = report().over.iter().find(|measured| measured.over == Over::Distance).expect("the distance was changed");
@@ -194,7 +195,7 @@ fn the_page_holds_all_and_fetches_nothing() {
 }
 
 #[test]
-fn tables_are_told_in_markdown() {
+fn tables_are_written_in_markdown() {
     let pages = report().pages().expect("pages can be made");
     let markdown = pages[0].markdown();
     for text in ["## sphere\n", "What to choose for sphere on the adapter", "| distance of a point light (radii) |"] {
@@ -202,7 +203,7 @@ fn tables_are_told_in_markdown() {
     }
 }
 
-/// Each page of a failure names the test that holds it, and shows what it says.
+/// Each page of a failure names an existing test, and shows its pictures and figures.
 #[test]
 fn every_failure_names_a_test_that_there_is() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/failures");

@@ -43,7 +43,7 @@ impl Timed {
             }
             Self::Read(input) => {
                 let camera = input.spawn(&mut app)?.camera;
-                // So that no two frames are the same.
+                // The camera turns, so that no two frames are the same.
                 Turntable::turn(&mut app, camera, 1.0_f32.to_radians());
                 shade(app.world_mut(), look);
             }
@@ -55,7 +55,7 @@ impl Timed {
     }
 }
 
-/// Gives every object this look in place of its own.
+/// Gives every object this shading in place of its own.
 fn shade(world: &mut World, look: TimedShading) {
     let objects: Vec<Entity> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
     for object in objects {

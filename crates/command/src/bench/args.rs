@@ -118,7 +118,7 @@ impl BenchShading {
         }
     }
 
-    /// The tolerance of its pictures, where `said` is that of the command line.
+    /// The tolerance of its pictures; `said` is that of the command line.
     pub(super) fn tolerance(self, said: Tolerance) -> Tolerance {
         if self == Self::ExactPhong { Tolerance::EXACT } else { said }
     }

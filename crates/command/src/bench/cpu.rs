@@ -28,7 +28,8 @@ pub(super) fn timed(apps: &mut [App], rounds: u32) -> Result<Vec<(Vec<f64>, CpuT
 impl CpuTimes {
     /// Medians in milliseconds, by the names of the sets; and that of the sum.
     pub(super) fn json(&self) -> Value {
-        let sets = RenderSet::ALL.map(|set| (set.name().to_owned(), json!(self.median_ms(|times| times.of(set)))));
+        let sets =
+            RenderSet::ALL.map(|set| (set.name().to_owned(), json!(self.median_ms(|times| times.duration(set)))));
         let total = ("total".to_owned(), json!(self.median_ms(SetTimes::total)));
         sets.into_iter().chain([total]).collect::<Map<_, _>>().into()
     }
@@ -40,7 +41,7 @@ impl CpuTimes {
 
     /// The renderer's own part, frame by frame.
     pub(super) fn own_of_each_ms(&self) -> Vec<f64> {
-        self.each_ms(|times| times.total().saturating_sub(times.of(RenderSet::Draw)))
+        self.each_ms(|times| times.total().saturating_sub(times.duration(RenderSet::Draw)))
     }
 
     fn median_ms(&self, of: impl Fn(&SetTimes) -> Duration) -> f64 {

@@ -30,7 +30,7 @@ pub(super) fn run(args: &BenchArgs, timed: &Timed) -> Result<(), Failure> {
     let apps: Result<Vec<App>, Failure> = modes.iter().map(|mode| timed.app(args, *mode)).collect();
     let mut apps = apps?;
     let times = cpu::timed(&mut apps, args.rounds)?;
-    let adapter = Adapter::of(apps[0].world()).ok_or(RenderError::NoAdapter)?;
+    let adapter = Adapter::from_world(apps[0].world()).ok_or(RenderError::NoAdapter)?;
     let machine = Machine::new(&adapter);
     let reports = apps.iter().map(|app| app.world().resource::<FrameReport>().clone());
     let mut rows = Vec::new();

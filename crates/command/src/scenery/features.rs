@@ -19,8 +19,8 @@ pub(crate) struct FeatureStage {
 }
 
 impl FeatureStage {
-    /// Gouraud shading of a plane of 360 × 360 cells in 32 × 32 pixels: hardly anything but vertices, and none of them
-    /// on a patch that turns away.
+    /// Gouraud shading of a plane of 360 × 360 cells in 32 × 32 pixels: hardly anything but vertices, and no patch is
+    /// culled for facing away.
     pub(crate) fn vertex() -> Self {
         Self {
             size: UVec2::splat(32),
@@ -227,7 +227,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn features_are_told_apart() {
+    fn features_have_distinct_names_and_values() {
         let all = Feature::all();
         assert_eq!(all[0], Feature::BASELINE);
         for (i, one) in all.iter().enumerate() {

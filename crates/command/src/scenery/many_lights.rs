@@ -4,8 +4,8 @@ use std::f32::consts::TAU;
 
 use halfway::prelude::*;
 
-/// The scene as a plugin: a floor of 512 × 512 cells, which is 8,192 patches, seen as a whole, from a camera that
-/// moves. Levels of detail are off.
+/// The scene as a plugin: a floor of 512 × 512 cells, which is 8,192 patches, all in view of a camera that moves.
+/// Levels of detail are off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ManyLights {
     /// Lights above the floor, without a range.

@@ -52,7 +52,7 @@ fn line_of<'a>(all: &'a [String], backend: &str) -> &'a str {
     line.unwrap_or_else(|| panic!("no adapter of {backend}; `cargo xtask test` installs its driver: {all:?}"))
 }
 
-// Else a list of one would do for the tests that go through it.
+// Otherwise tests over the whole list could pass on one adapter.
 #[cfg(target_os = "linux")]
 #[test]
 fn the_list_has_vulkan_opengl_and_the_cpu() {
@@ -87,7 +87,7 @@ fn every_adapter_of_the_list_can_be_chosen() {
 type Row<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str], i32);
 
 #[test]
-fn a_name_that_fits_nothing_lists_what_there_is() {
+fn a_name_without_a_match_lists_the_adapters() {
     let folder = folder("no_such_adapter");
     let teapot = asset("assets/teapot.obj");
     let all = listed(&folder, &[]);
@@ -110,7 +110,7 @@ fn a_name_that_fits_nothing_lists_what_there_is() {
     }
     assert!(!folder.join("a.png").exists(), "the reference renderer did not step in");
 
-    // Who says more nearly goes first.
+    // The more specific choice wins.
     let backend = own.split(':').next().unwrap_or_default();
     let rows: [Row; 6] = [
         (&[("HALFWAY_ADAPTER", "nothing")], &[], 3),
@@ -145,7 +145,7 @@ fn a_name_outranks_drivers_but_reveals_no_hidden_ones() {
     let all = listed(&folder, &[]);
     let [vulkan, gl, cpu] = ["vulkan", "gl", "cpu"].map(|backend| line_of(&all, backend));
     let of_gl = name_of(gl);
-    // Drivers that are named are asked for, software ones included, and a name says more.
+    // Named drivers count as chosen, software ones included, and an adapter's name is more specific.
     let mesa_s = ("VK_DRIVER_FILES", "/usr/share/vulkan/icd.d");
     assert!(device(&folder, &[mesa_s], &[]).contains(" (vulkan"));
     for (name, line) in [("cpu", cpu), (of_gl.as_str(), gl)] {
@@ -153,7 +153,7 @@ fn a_name_outranks_drivers_but_reveals_no_hidden_ones() {
         assert_eq!(device(&folder, &[mesa_s, ("HALFWAY_ADAPTER", name)], &[]), line);
     }
     assert_eq!(device(&folder, &[mesa_s, ("WGPU_BACKEND", "gl")], &[]), gl);
-    // Without any driver of Vulkan's there is none to choose, by whatever name; the others can be.
+    // Without a Vulkan driver no name selects one; other adapters can be selected.
     let none = [("VK_DRIVER_FILES", "/nowhere.json"), ("VK_ICD_FILENAMES", "/nowhere.json")];
     assert_eq!(device(&folder, &none, &["--adapter", &of_gl]), gl);
     let teapot = asset("assets/teapot.obj");
@@ -187,7 +187,7 @@ fn a_picture_holds_32_bit_floats_or_is_an_error_and_no_file() {
             assert!(!line.contains(" (cpu"), "{error}");
             assert_eq!(fs::read_dir(&folder).expect("it was made").count(), 1, "{line}: something was left");
         }
-        // One of the ways out that the error names.
+        // One of the remedies that the error names.
         assert!(draw("a.png").status.success(), "{line}");
     }
 }
@@ -209,7 +209,7 @@ fn opengl_is_tried_before_giving_up() {
     } else {
         assert!(said.ends_with("(cpu, software)\n"), "{said}{error}");
     }
-    // A limit is not said to be more than it is.
+    // The message names the limit exactly.
     let output = run(&folder, &[("WGPU_BACKEND", "metal")], &["adapters"]);
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{error}");
@@ -217,11 +217,11 @@ fn opengl_is_tried_before_giving_up() {
 }
 
 #[test]
-fn a_machine_without_a_session_hears_nothing_of_it() {
+fn a_machine_without_a_session_prints_no_warning() {
     let folder = folder("no_session");
     let teapot = asset("assets/teapot.obj");
     let render = ["render", &teapot, "--size", "32x24", "-o", "a.png"];
-    // The second draws with a driver, whatever the machine would choose.
+    // The second draws with a driver, whatever the machine's default is.
     for arguments in [&render[..], &[&render[..], &["--adapter", "gpu"]].concat(), &["adapters"]] {
         let output = run(&folder, &[], arguments);
         assert!(output.status.success(), "{output:?}");

@@ -119,7 +119,7 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
     }
 }
 
-/// Its message, which is standard error's too, is the library's; what ends the command is an error.
+/// The decoder's panic message may reach standard error; the command itself ends with an error.
 #[test]
 fn a_decoder_that_panics_is_an_error() {
     let file = asset("crates/texture/tests/past_failures/a_jpeg_on_which_the_decoder_panics.jpg");
@@ -138,7 +138,7 @@ fn the_largest_pictures_are_not_too_large_to_compare() {
         let mut encoder = png::Encoder::new(&mut bytes, side, side);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Sixteen);
-        // The pixels, and with them gigabytes, are left out.
+        // The pixels, which would be gigabytes, are left out.
         drop(encoder.write_header().expect("memory takes it"));
         fs::write(folder.join(name), bytes).expect("the folder can be written");
     };
@@ -174,7 +174,7 @@ fn the_largest_pictures_are_not_too_large_to_compare() {
         assert!(!largest.contains("limit") && !largest.contains("memory"), "{largest}");
         assert!(larger.contains("limit") || larger.contains("memory"), "{larger}");
     }
-    // Memory that is refused is an error, and no end of the program.
+    // A failed allocation is an error and does not abort the program.
     if cfg!(target_os = "linux") {
         let mut command = Command::new("sh");
         let line = r#"ulimit -v 1000000; exec "$0" compare largest.exr largest.exr"#;
@@ -195,7 +195,7 @@ fn a_signal_leaves_no_partial_file() {
         let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
         command.args(["render", &teapot, "--size", "32x24", "--frames", frames, "-o", "turn.png"]);
         let mut child = command.current_dir(&folder).spawn().expect("the command was built with this test");
-        // The animation is on its way.
+        // The animation has begun.
         while files() == 0 {
             assert!(child.try_wait().is_ok_and(|ended| ended.is_none()), "it ended by itself");
             std::thread::sleep(std::time::Duration::from_millis(20));

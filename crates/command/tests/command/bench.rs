@@ -125,7 +125,7 @@ fn a_model_is_timed_under_the_lights_that_it_is_drawn_under() {
 }
 
 #[test]
-fn a_tolerance_is_for_whoever_asks() {
+fn a_tolerance_applies_only_on_request() {
     let folder = folder("tolerance");
     let bench = |tolerance: &[&str]| {
         json_of(&folder, &[&["bench", "s4", "--size", "16x16", "--rounds", "1", "--json"], tolerance].concat())
@@ -138,7 +138,7 @@ fn a_tolerance_is_for_whoever_asks() {
     assert_eq!((&off["tolerance"]["pixels"], &coarse["tolerance"]["pixels"]), (&0.0.into(), &4.0.into()));
     let [off, default, coarse] = [off, default, coarse].map(|value| drawn(&value));
     assert_eq!(off, default, "exact by default");
-    // Under flat and Gouraud shading triangles show, and the last row is exact whatever is asked.
+    // Flat and Gouraud shading draw all triangles, and the last row is exact under any tolerance.
     let fewer: Vec<bool> = coarse.iter().zip(&off).map(|(coarse, off)| *coarse < off / 2).collect();
     assert_eq!(fewer, [true, false, false, true, false], "{off:?}, {coarse:?}");
 
@@ -165,7 +165,7 @@ fn features_are_timed_beside_a_baseline() {
             is_timed(&row[stage]);
         }
         assert_eq!(baseline[stage]["ratio_to_baseline"], 1.0);
-        // As many as were asked for shine, and only what is compared by lights has a cost by lights.
+        // The scene has the requested lights, and only features of lights have a cost per light.
         for (name, lights) in [("no lights", 0), ("five point lights", 5), ("sixteen directional lights", 16)] {
             assert_eq!(row(name)[stage]["report"]["lights"], lights, "{name}");
         }
@@ -185,7 +185,7 @@ fn lights_that_touch_nothing_are_timed_apart() {
     let folder = folder("bench_lights");
     let value = json_of(&folder, &["bench", "lights", "--adapter", "cpu", "--rounds", "1", "--json"]);
     assert!(value["pair_ns"].is_f64() && value["light_ns"].is_f64(), "{value}");
-    // The twelve at each of 8,192 patches, whatever else shines.
+    // The twelve at each of 8,192 patches, however many others there are.
     let of_rows = |count: &str| {
         let rows = value["rows"].as_array().expect("rows");
         rows.iter().map(|row| row["report"][count].as_u64().expect("a count")).collect::<Vec<_>>()

@@ -10,7 +10,7 @@ fn json(file: &Path) -> serde_json::Value {
 }
 
 #[test]
-fn a_model_is_charted_and_what_to_choose_is_said() {
+fn a_model_is_charted_with_a_recommendation() {
     let folder = folder("chart_model");
     let model = asset("assets/teapot.obj");
     let said = succeeds(&folder, &["chart", &model, "--quick", "--adapter", "cpu", "-o", "charted"]);

@@ -18,7 +18,7 @@ fn quantised_models_are_smaller_and_say_how_far_off() {
 }
 
 #[test]
-fn convert_changes_formats_and_says_what_is_lost() {
+fn convert_changes_formats_and_reports_losses() {
     let folder = folder("convert");
     let said = succeeds(&folder, &["convert", &asset("assets/teapot.obj"), "teapot.smf"]);
     assert!(said.contains("teapot.smf: 5 parts") && said.contains("lost       1 materials"), "{said}");
@@ -62,7 +62,7 @@ fn convert_takes_the_steps_that_are_asked_for() {
     }
     assert!(info.contains("volume 1.000000e0") && !info.contains("levels"), "{info}");
 
-    // The teapot of 4032 triangles in five parts, refined and coarsened: all parts together come to what was asked for.
+    // The teapot of 4032 triangles in five parts, refined and coarsened: all parts together have the requested number.
     let teapot = asset("assets/teapot.obj");
     let said = succeeds(&folder, &["convert", &teapot, "a.glb", "--subdivide", "midpoint=1", "--simplify", "2000"]);
     assert_eq!(numbers(&said, "subdivide"), [4032.0, 4.0 * 4032.0], "{said}");
@@ -81,7 +81,7 @@ fn convert_takes_the_steps_that_are_asked_for() {
     assert!(after < 0.75 * before && error <= 0.02, "{said}");
     assert_eq!(numbers(&said, "normals")[1..], [3.0 * after], "three vertices a face: {said}");
 
-    // Parts of a lantern that share a mesh go on sharing it; a part smaller than the distance goes, and that is said.
+    // Parts of a lantern that share a mesh still share it; a part smaller than the distance is removed, and reported.
     let lantern = asset("assets/lantern.glb");
     let said = succeeds(&folder, &["convert", &lantern, "c.glb", "--weld=0.3"]);
     assert!(said.contains("lost       part \"bar\", of which no triangle is left"), "{said}");

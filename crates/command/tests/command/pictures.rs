@@ -131,7 +131,7 @@ fn models_are_shown_with_their_images() {
 }
 
 #[test]
-fn an_image_that_does_nothing_is_told_once() {
+fn an_image_without_effect_is_logged_once() {
     let folder = folder("ignored");
     let image = asset("assets/crate_height.png");
     let object = |x: f32| {
@@ -151,7 +151,7 @@ fn an_image_that_does_nothing_is_told_once() {
 }
 
 #[test]
-fn info_schema_and_adapters_say_what_they_promise() {
+fn info_schema_and_adapters_print_their_data() {
     let folder = folder("info");
     let info = succeeds(&folder, &["info", &asset("assets/lantern.glb")]);
     for expected in ["triangles  1896", "bounds", "metallic-roughness", "light", "problems"] {

@@ -26,8 +26,8 @@ fn last_words(viewer: &mut Viewer) -> (Option<i32>, String) {
     (code, said)
 }
 
-/// Has `view` drawn by the adapter that is tested and by the CPU, several times, each a little longer after the first
-/// picture, and hands it over.
+/// Runs `view` on the tested adapter and on the CPU, several times, and calls a function with each, a little later
+/// after the first picture each time.
 fn each_a_little_later(screen: impl Fn() -> Screen, mut take_away: impl FnMut(&Screen, Viewer)) {
     for adapter in [None, Some("cpu")] {
         for milliseconds in [0, 3, 7, 240, 490] {
@@ -43,7 +43,7 @@ fn each_a_little_later(screen: impl Fn() -> Screen, mut take_away: impl FnMut(&S
 }
 
 #[test]
-fn a_lost_device_is_said_once_and_all_is_drawn_on() {
+fn a_lost_device_is_logged_once_and_drawing_continues() {
     const LOSSES: usize = 3;
     let screen = Screen::open();
     let mut viewer = Viewer::run(&screen, heard(device_loser()));
@@ -90,7 +90,7 @@ fn a_lost_surface_is_made_anew() {
 }
 
 #[test]
-fn surfaces_that_are_lost_for_ever_end_it_with_an_error() {
+fn permanently_lost_surfaces_end_the_app_with_an_error() {
     let screen = Screen::open();
     let mut viewer = Viewer::run(&screen, heard(device_loser()));
     viewer.shown("Phong, Blinn–Phong", None);
@@ -101,18 +101,18 @@ fn surfaces_that_are_lost_for_ever_end_it_with_an_error() {
 }
 
 #[test]
-fn a_window_that_is_taken_away_ends_it() {
+fn a_destroyed_window_ends_the_app() {
     each_a_little_later(Screen::open, |screen, mut viewer| {
         screen.destroy(viewer.window);
         let (code, said) = last_words(&mut viewer);
-        // Its surface may be found lost before the display has told of the window.
+        // The loss of its surface may be detected before the display reports that of the window.
         let is_told = code == Some(1) && said.lines().count() == 1;
         assert!((code, said.as_str()) == (Some(0), "") || is_told, "{code:?}: {said}");
     });
 }
 
 #[test]
-fn a_display_that_ends_ends_it_with_an_error() {
+fn a_closed_display_ends_the_app_with_an_error() {
     each_a_little_later(Screen::open_own, |screen, mut viewer| {
         screen.end();
         let (code, said) = last_words(&mut viewer);

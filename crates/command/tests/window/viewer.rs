@@ -16,21 +16,21 @@ use x11rb::protocol::xproto::{
 use x11rb::rust_connection::RustConnection;
 use x11rb::{CURRENT_TIME, NONE};
 
-/// Looks this often before giving up: minutes on a machine that is not stuck.
+/// The number of polls before giving up: minutes on a machine that is not stuck.
 const LOOKS: u32 = 2400;
 pub(crate) const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 /// Displays have one focus; the tests that open windows take turns.
 static TURN: Mutex<()> = Mutex::new(());
 
-/// Has a graphics adapter draw unless the environment names something else: surfaces and devices are what may be lost.
+/// Selects a graphics adapter unless the environment names another: only surfaces and devices can be lost.
 fn by_a_driver(command: &mut Command) {
     if std::env::var_os("HALFWAY_ADAPTER").is_none() {
         command.env("HALFWAY_ADAPTER", "gpu");
     }
 }
 
-/// The command that shows the teapot, on whatever X display it will be told.
+/// The command that shows the teapot; the X display is set later.
 pub(crate) fn view() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
     command.args(["view", concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/teapot.obj")]);
@@ -50,7 +50,7 @@ pub(crate) fn device_loser() -> Command {
     command
 }
 
-/// Asks until there is an answer.
+/// Polls until there is a value.
 pub(crate) fn eventually<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
     for _ in 0..LOOKS {
         if let Some(answer) = ask() {
@@ -121,7 +121,7 @@ impl Screen {
         Self::from_server(|| given.map_or_else(Self::start, |name| (name, None)))
     }
 
-    /// One that may be ended, whatever display is given.
+    /// A display of the test's own, which it may end.
     pub(crate) fn open_own() -> Self {
         Self::from_server(Self::start)
     }
@@ -129,7 +129,7 @@ impl Screen {
     /// Ends the display, if it is the test's own, under whatever is on it.
     pub(crate) fn end(&self) {
         if let Some(mut server) = self.server.take() {
-            // Asked rather than killed, so that it leaves no lock behind.
+            // Terminated rather than killed, so that it leaves no lock behind.
             let _ = Command::new("sh").args(["-c", &format!("kill {}", server.id())]).status();
             let _ = server.wait();
         }
@@ -143,8 +143,8 @@ impl Screen {
         Self { connection, root, name, server: server.into(), _turn: turn }
     }
 
-    /// Connects to a display. One that has just lost its last program may start afresh, and hangs up on whoever comes
-    /// meanwhile; so it is asked again for a second.
+    /// Connects to a display. A display that has just lost its last client may restart and close new connections
+    /// meanwhile, so this retries for a second.
     pub(crate) fn connect(name: &str) -> (RustConnection, usize) {
         let mut problem = None;
         for _ in 0..20 {
@@ -177,12 +177,12 @@ impl Screen {
         (format!(":{}", number.trim()), Some(server))
     }
 
-    /// The window of a process that can be seen, at any depth, since window managers put frames around it.
+    /// The visible window of a process, at any depth, since window managers put frames around it.
     pub(crate) fn window_of(&self, process: u32) -> Option<Window> {
         let pid = self.atom("_NET_WM_PID");
         let mut open = vec![self.root];
         while let Some(window) = open.pop() {
-            // Windows come and go meanwhile; one that is gone is not the one.
+            // Windows may close meanwhile; those are skipped.
             let Ok(tree) = self.connection.query_tree(window).ok()?.reply() else { continue };
             open.extend(tree.children);
             let owner = self.connection.get_property(false, window, pid, AtomEnum::CARDINAL, 0, 1).ok()?.reply();
@@ -220,8 +220,8 @@ impl Screen {
         self.connection.destroy_window(window).expect("the display is there").check().expect("the window is there");
     }
 
-    /// Tells the programs on the screen how many dots an inch it has, as a desktop does (XSETTINGS 0.5): first before
-    /// they start, which gives the window that tells it, and then by that window.
+    /// Publishes the screen's dots per inch to programs, as a desktop does (XSETTINGS 0.5): the first call, before
+    /// programs start, creates the window that owns the setting; later calls change it.
     pub(crate) fn tell_resolution(&self, teller: Option<Window>, dots: u32) -> Window {
         let connection = &self.connection;
         let teller = teller.unwrap_or_else(|| {
@@ -328,7 +328,7 @@ impl<'a> Viewer<'a> {
         }
     }
 
-    /// The picture under a title that ends with `state`, once it has settled and is another than `before`.
+    /// The picture under a title that ends with `state`, once it has settled and differs from `before`.
     pub(crate) fn shown(&mut self, state: &str, before: Option<&Picture>) -> Picture {
         let mut last = None;
         eventually(&format!("another picture, under the title … {state}"), || {
@@ -401,7 +401,7 @@ impl<'a> Viewer<'a> {
     /// How long the viewer has worked, in the system's ticks.
     pub(crate) fn cpu_ticks(&self) -> u64 {
         let status = std::fs::read_to_string(format!("/proc/{}/stat", self.process.id())).expect("the viewer runs");
-        // Behind the name, which may have spaces, the twelfth and thirteenth.
+        // The twelfth and thirteenth fields after the name, which may contain spaces.
         let (_, behind) = status.rsplit_once(')').expect("a name in brackets");
         behind.split_whitespace().skip(11).take(2).map(|ticks| ticks.parse::<u64>().expect("a number")).sum()
     }

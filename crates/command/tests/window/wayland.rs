@@ -1,4 +1,4 @@
-//! A Wayland display in a window of the X display, so that what it shows can be seen there.
+//! A Wayland display in a window of the X display, whose contents can be read there.
 
 use std::process::{Child, Command, Stdio};
 
@@ -7,7 +7,7 @@ use x11rb::protocol::xproto::{ConnectionExt, MapState, Window};
 
 use super::viewer::{Picture, Screen, eventually};
 
-/// Weston with one program on all of it, until it is dropped.
+/// Weston with one full-screen program, until it is dropped.
 pub(crate) struct Compositor<'a> {
     screen: &'a Screen,
     process: Child,

@@ -58,8 +58,8 @@ impl<T> DrawnMeshes<T> {
     }
 
     /// Forgets meshes that are gone, and makes what is missing or out of date for those that are drawn: `make` takes
-    /// the mesh, its indices, its form, and what was made of it before; it says how many bytes it has made. Where it
-    /// fails the mesh is not drawn, and its error is in the report, every frame anew.
+    /// the mesh, its indices, its form, and what was made of it before; it says how many bytes
+    /// it has made. If it fails, the mesh is not drawn, and every frame reports its error.
     pub fn make_ready(
         &mut self,
         batches: &Batches,

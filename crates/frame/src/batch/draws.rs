@@ -74,11 +74,11 @@ impl Draws {
     }
 
     /// The draws of a group.
-    pub fn of(&self, group: &DrawGroup) -> &[IndexedDraw] {
+    pub fn in_group(&self, group: &DrawGroup) -> &[IndexedDraw] {
         self.each.get(group.draws.clone()).unwrap_or_default()
     }
 
-    /// How many commands draw it all.
+    /// The number of draw commands.
     pub(crate) fn count(&self) -> usize {
         self.each.len()
     }
@@ -87,9 +87,9 @@ impl Draws {
         self.each.iter().map(IndexedDraw::triangles).sum()
     }
 
-    /// How much groups of these draws draw.
+    /// The draws and triangles of some groups.
     pub fn counts(&self, groups: &[DrawGroup]) -> PassCounts {
-        let draws = || groups.iter().flat_map(|group| self.of(group));
+        let draws = || groups.iter().flat_map(|group| self.in_group(group));
         PassCounts { draws: draws().count() as u32, triangles: draws().map(IndexedDraw::triangles).sum() }
     }
 }

@@ -15,12 +15,12 @@ fn ignored(maps: &MapLooks, terms: Terms, surrounded: bool) -> impl Iterator<Ite
     each.into_iter().filter(|(kind, nothing)| *nothing && maps.has(*kind)).map(|(kind, _)| kind)
 }
 
-/// Says so in the log, once for each kind.
-pub(crate) fn tell_ignored(maps: &MapLooks, terms: Terms, surrounded: bool) {
-    static SAID: [Once; MapKind::COUNT] = [const { Once::new() }; MapKind::COUNT];
+/// Logs the images that are ignored, once for each kind.
+pub(crate) fn log_ignored(maps: &MapLooks, terms: Terms, surrounded: bool) {
+    static LOGGED: [Once; MapKind::COUNT] = [const { Once::new() }; MapKind::COUNT];
     for kind in ignored(maps, terms, surrounded) {
         let name = kind.name();
-        SAID[kind as usize].call_once(|| {
+        LOGGED[kind as usize].call_once(|| {
             log::warn!(
                 "an object's {name} image does nothing, since flat and Gouraud shading light triangles and vertices; under Phong \
                  shading it counts"
@@ -38,7 +38,7 @@ mod tests {
     use halfway_texture::{Channel, FarNormals, Sampling, UvSet};
 
     #[test]
-    fn what_turns_normals_is_ignored_where_no_term_is_shaded_at_the_fragments() {
+    fn normal_maps_are_ignored_without_fragment_terms() {
         let (uv_set, channel, far_normals) = (UvSet::First, Channel::Red, FarNormals::Mean);
         let look = MapLook { sampling: Sampling::default(), uv_set, channel, far_normals };
         let all = MapLooks([Some(look); MapKind::COUNT]);

@@ -8,7 +8,7 @@ use halfway_lighting::{Frequency, Terms};
 use halfway_texture::{Channel, FarNormals, LevelFilter, MapKind, Sampling, SolidKind, SurfaceMap, UvSet};
 use std::fmt;
 
-/// All of a draw that its pipeline is specialised for. What a draw does not use is not in its shader.
+/// The properties of a draw that its pipeline is specialised for. Its shader has only the code that the draw uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(clippy::struct_excessive_bools, reason = "each is one independent switch of the shader")]
 pub struct DrawKey {
@@ -16,7 +16,7 @@ pub struct DrawKey {
     pub blend: bool,
     /// The way its lights reach the shader.
     pub lists: Lists,
-    /// Where each term is shaded; `Never` where nothing would come of it.
+    /// The frequency of each term; `Never` if it would add nothing.
     pub terms: Terms,
     /// Each instance names its record.
     pub per_instance: bool,
@@ -40,7 +40,7 @@ pub struct DrawKey {
     pub clockwise: bool,
     /// The mesh's colors multiply the ambient and diffuse reflectance, and the opacity.
     pub colored: bool,
-    /// How the images are looked up.
+    /// The lookups of the images.
     pub maps: MapLooks,
     /// A mask cuts away low opacity.
     pub masked: bool,
@@ -52,7 +52,7 @@ pub struct DrawKey {
     pub surrounded: bool,
 }
 
-/// How an image is looked up.
+/// The lookup of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MapLook {
     /// The filter.
@@ -90,7 +90,7 @@ pub(crate) fn levels_taken(kind: MapKind, levels: LevelFilter) -> LevelFilter {
     if kind == MapKind::Height { levels.by_level() } else { levels }
 }
 
-/// How the images of a draw are looked up, each in the slot of its kind.
+/// The lookups of the images of a draw, each in the slot of its kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct MapLooks(pub [Option<MapLook>; MapKind::COUNT]);
 
@@ -284,7 +284,7 @@ impl DrawKey {
         std::iter::once(self).chain(lit).map(Self::generic)
     }
 
-    /// The one whose instances look up their records.
+    /// The same key for a draw whose instances look up their records.
     #[must_use]
     pub fn looking_up(self) -> Self {
         Self { per_instance: true, ..self }
@@ -304,7 +304,7 @@ mod tests {
     use std::collections::HashSet;
 
     #[test]
-    fn relatives_are_generic_and_every_shading_is_among_them() {
+    fn generic_keys_cover_every_shading() {
         let relatives: HashSet<_> = DrawKey::plain().relatives().collect();
         assert_eq!(relatives.len(), 6, "three shadings by two reflectances");
         assert!(relatives.contains(&DrawKey::plain().generic()) && !relatives.contains(&DrawKey::plain()));

@@ -1,7 +1,7 @@
 //! Illuminate: the patches of each object that may show, with its material and the lights that each needs.
 
 use crate::batch::backend::Backend;
-use crate::batch::ignored::tell_ignored;
+use crate::batch::ignored::log_ignored;
 use crate::batch::key::DrawKey;
 use crate::batch::lit_runs::{LitRun, OpenRun, most_between};
 use crate::batch::object::{Circumstances, Shared};
@@ -121,7 +121,7 @@ impl LitPatches {
             return Err(wrong.clone());
         }
         let Some(geometry) = object.geometry(&shown.geometries) else { return Ok(None) };
-        tell_ignored(&reflecting.maps, terms, paint.surrounded);
+        log_ignored(&reflecting.maps, terms, paint.surrounded);
         let look = self.table.look(&reflecting);
         if let Some(invalid) = &look.invalid {
             return Err(invalid.clone());

@@ -22,7 +22,7 @@ pub(crate) struct Reflecting<'a> {
     pub(crate) faces: Faces,
     /// The mesh has colors that count.
     pub colored: bool,
-    /// How images are looked up.
+    /// The lookups of the images.
     pub maps: MapLooks,
     /// A mask cuts away low opacity.
     pub masked: bool,
@@ -190,12 +190,12 @@ impl Reflecting<'_> {
 pub(super) fn wrong_paint((_, maps, alpha, solid): PaintOf) -> Option<InvalidValue> {
     let of_maps = maps.and_then(Maps::wrong).map(|WrongMap { kind, field, value, expected }| {
         let field = format!("{}.{field}", kind.name());
-        Fields::of("Maps").error(&field, Problem::Number { value, expected })
+        Fields::for_owner("Maps").error(&field, Problem::Number { value, expected })
     });
     let of_solid = || {
         let wrong = solid.and_then(SolidTexture::wrong)?;
         let problem = Problem::Number { value: wrong.value, expected: wrong.expected };
-        Some(Fields::of("SolidTexture").error(wrong.field, problem))
+        Some(Fields::for_owner("SolidTexture").error(wrong.field, problem))
     };
     of_maps.or_else(|| alpha.and_then(|alpha| alpha.validate().err())).or_else(of_solid)
 }

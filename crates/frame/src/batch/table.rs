@@ -107,8 +107,7 @@ fn missing() -> Pyramid {
     MISSING.get_or_init(Pyramid::missing).clone()
 }
 
-/// How something is drawn, the triangles of which mesh in which form, and the number of its set of images, from 1 on; 0
-/// for none.
+/// A pipeline key, a mesh with its form, and the number of the set of images, from 1 on; 0 for none.
 pub(crate) type Call = (DrawKey, AssetId<Mesh>, Form, u32);
 
 impl ObjectTable {

@@ -36,7 +36,7 @@ pub struct Geometry {
     pub pieces: Option<Prepared>,
 }
 
-/// How a mesh is laid out for drawing.
+/// The layout of a mesh for drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[expect(clippy::struct_excessive_bools, reason = "each is one independent choice")]
 pub struct Form {
@@ -122,9 +122,9 @@ impl<'a> Paint<'a> {
 #[derive(Resource, Default)]
 pub struct Geometries {
     meshes: HashMap<(AssetId<Mesh>, Form), Geometry>,
-    /// How many there were, and how many assets, when those that are gone were last looked for.
+    /// The numbers of meshes and of assets at the last search for removed ones.
     looked: (usize, usize),
-    /// How many meshes have been forgotten since the start.
+    /// The number of meshes dropped since the start.
     pub(crate) forgotten: u64,
 }
 

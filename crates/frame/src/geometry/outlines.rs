@@ -9,7 +9,7 @@ use halfway_lighting::equations::vector::length;
 use halfway_lighting::{Faces, Lens};
 use halfway_mesh::Mesh;
 
-/// Where a piece of a mesh is and which way it faces, in model space: no more bytes than a line of a cache has.
+/// The bounding sphere of a part of a mesh and the directions it faces, in model space; fits in a cache line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Outline {
     center: Vec3,
@@ -17,7 +17,7 @@ pub(crate) struct Outline {
     facing: Facing,
 }
 
-/// Which way triangles face: from where none of them shows its front, or none its back.
+/// The directions that triangles face: the viewpoints from which none of them shows its front, or none its back.
 ///
 /// A triangle shows its front to the eye at e where n·(e − p) > 0, n its normal and p any of its points. With c the
 /// centre of the patch and v = e − c, that is n·v + n·(c − p). The largest n·v of all triangles is a convex function of
@@ -252,7 +252,7 @@ mod tests {
 
     /// Rounded bounds are never less, and nothing hides what may face anywhere.
     #[test]
-    fn what_faces_the_eye_is_not_hidden() {
+    fn patches_that_face_the_eye_are_not_hidden() {
         let mut seed = 3_u32;
         let mut random = || {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

@@ -21,7 +21,7 @@ pub struct MeshTriangles {
     pub pieces: Option<Prepared>,
 }
 
-/// A mesh with levels of detail as a drawer takes it, made beside the frames; only that drawer knows its type.
+/// A mesh with levels of detail as a renderer takes it, made in the background; only that renderer knows its type.
 pub type Prepared = Arc<dyn Any + Send + Sync>;
 
 /// The patches of a mesh.
@@ -29,9 +29,9 @@ pub type Prepared = Arc<dyn Any + Send + Sync>;
 pub struct Patches {
     shapes: Vec<PatchShape>,
     outlines: Vec<Outline>,
-    /// Where the indices of each patch begin, and where those of the last end.
+    /// The first index of each patch, and the end of the last.
     starts: Vec<u32>,
-    /// Neighbouring patches, which are culled together before each is looked at.
+    /// Neighbouring patches, which are culled together before each is tested.
     groups: Vec<PatchGroup>,
     /// `None` where all patches are the mesh's own.
     levels: Option<Levels>,
@@ -58,7 +58,7 @@ struct Levels {
 /// The demands that the level of detail of an object depends on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DetailDemand {
-    /// How far points may be off, in pixels; 0 for the mesh itself.
+    /// The allowed displacement of points, in pixels; 0 for the mesh itself.
     pub(crate) pixels: f32,
     pub(crate) lit: bool,
     pub(crate) has_images: bool,
@@ -200,7 +200,8 @@ impl Patches {
 }
 
 impl Levels {
-    /// For which groups the simplified version is detailed enough. Where it is, so are those of all finer groups below.
+    /// Whether the simplified version of each group is detailed enough. If it is, so are those of all finer groups
+    /// below.
     fn which_will_do(&self, sight: &Sight, DetailDemand { pixels, lit, has_images }: DetailDemand) -> Vec<bool> {
         let mut will_do = vec![false; self.groups.len()];
         if pixels <= 0.0 {
@@ -253,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn patches_hold_every_triangle_once_and_all_that_is_said_of_them() {
+    fn patches_hold_every_triangle_once_with_true_bounds() {
         for mesh in [Mesh::from(UvSphere::new(2.0, 96, 48)), Mesh::from(Plane { size: 200.0, divisions: 64 })] {
             let MeshTriangles { corners: triangles, patches, .. } = MeshTriangles::in_patches(&mesh);
             let sorted = |mut triangles: Vec<[u32; 3]>| {

@@ -24,22 +24,22 @@ pub(crate) struct PatchShape {
     pub(super) normals: Option<PatchCone>,
 }
 
-/// The mean of some normals, and how far the farthest is from it.
+/// The mean of some normals, and the largest angle between it and one of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PatchCone {
     pub(super) axis: Vec3,
     /// In radians.
     pub(super) half_angle: f32,
-    /// How far any vertex is from the plane through the patch's centre across the axis.
+    /// The largest distance of a vertex from the plane through the patch's centre across the axis.
     pub(super) half_thickness: f32,
 }
 
 /// The normals that a patch is lit with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PatchNormals {
-    /// Those of its triangles.
+    /// The normals of its triangles.
     Faces,
-    /// Those of its vertices.
+    /// The normals of its vertices.
     Vertices,
 }
 

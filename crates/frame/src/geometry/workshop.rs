@@ -19,14 +19,14 @@ const FEWEST: usize = 64;
 pub struct Workshop {
     orders: HashMap<AssetId<Mesh>, Order>,
     thread: Option<Thread>,
-    /// How what draws takes triangles, where that takes time: done with the levels, not in the first frame that has
-    /// them.
+    /// The renderer's preparation of triangles, if that takes time: done with the levels, not in the first frame that
+    /// has them.
     pub cut: Option<Cut>,
     /// Failures that have not been reported yet.
     pub(crate) failures: Vec<RenderError>,
 }
 
-/// Prepares triangles for a drawer, if it can.
+/// Prepares triangles for a renderer, if it can.
 pub type Cut = fn(&Mesh, &MeshTriangles) -> Option<Prepared>;
 
 struct Order {
@@ -119,7 +119,7 @@ impl Workshop {
         self.orders.retain(|&id, _| keep(id));
     }
 
-    /// How many meshes are ordered or made.
+    /// The number of meshes that are ordered or made.
     pub fn len(&self) -> usize {
         self.orders.len()
     }
@@ -129,7 +129,7 @@ impl Workshop {
         self.orders.is_empty()
     }
 
-    /// How many meshes are not made yet.
+    /// The number of meshes that are not made yet.
     pub(crate) fn pending(&self) -> u32 {
         self.orders.values().filter(|order| matches!(order.state, OrderState::Asked)).count() as u32
     }

@@ -28,7 +28,7 @@ pub struct Lights {
     pub(super) tree: LightTree,
     /// The same lights, in the same order, in the world: sorted by kind.
     world: Vec<Light<f64>>,
-    /// How the view sees the world, and its unit of length.
+    /// The view's transform, and its unit of length.
     eye_from_world: DAffine3,
     unit: f64,
     /// Their kinds.
@@ -76,10 +76,11 @@ impl Lights {
     }
 }
 
-/// Inputs of a frame's lights. Where the next frame finds the same, and no light has changed, they are as they were.
+/// Inputs of a frame's lights. If the next frame has the same inputs and no light has changed, the lights are reused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MadeOf {
-    /// How many entities have a light of each kind. One that goes makes them fewer, and one that comes has changed.
+    /// The number of entities with a light of each kind. A removed light makes it smaller, and a new one counts as
+    /// changed.
     entities: [usize; Kind::ALL.len()],
     ambient: LinearRgba,
     /// The view's, and its unit of length.

@@ -22,20 +22,20 @@ pub struct LightLists {
     last: Option<(SurfaceLights, usize)>,
     /// The lights of the patch at hand.
     selected: Selected,
-    /// How many terms of lights the lists name, over all patches.
+    /// The number of light terms in the lists, over all patches.
     pub(crate) assigned: u64,
-    /// How many pairs of a patch and a light were evaluated.
+    /// The number of pairs of a patch and a light that were evaluated.
     pub(crate) pairs: u64,
     /// The most that was left out anywhere, in linear intensity: the sum of the bounds, of the brightest channel.
     pub(crate) left_out: f64,
 }
 
-/// How an object reflects light.
+/// The reflection of light by an object.
 pub(crate) struct Reflector {
     /// The sides that are seen; twice the same where one is.
     pub(crate) sides: [Coefficients<f32>; 2],
     pub(crate) reflectance: Reflectance,
-    /// Where its terms are shaded.
+    /// The frequencies of its terms.
     pub terms: Terms,
 }
 
@@ -46,7 +46,7 @@ pub(crate) struct Listing {
     reflectance: Reflectance,
     terms: Terms,
     view: Eye<f32>,
-    /// How much light may be left out of a patch, in linear intensity.
+    /// The light that may be omitted from a patch, in linear intensity.
     tolerance: [f64; 3],
 }
 
@@ -90,7 +90,7 @@ impl LightLists {
     }
 }
 
-/// The lights of both terms. Those that have both are together where both are shaded in the same place, and so once.
+/// The lights of both terms. Lights with both terms are listed once if both are shaded in the same stage.
 fn append_terms(numbers: &mut Vec<u32>, terms: Terms, [diffuse, specular]: [&[u32]; 2]) -> SurfaceLights {
     let mut append = |lights: &mut dyn Iterator<Item = u32>| append(numbers, lights);
     let none = LightRange::default();
@@ -98,7 +98,7 @@ fn append_terms(numbers: &mut Vec<u32>, terms: Terms, [diffuse, specular]: [&[u3
         let (diffuse, specular) = (append(&mut diffuse.iter().copied()), append(&mut specular.iter().copied()));
         return SurfaceLights { both: none, diffuse, specular };
     }
-    // Which is so of most patches, and found sooner.
+    // True of most patches, and found sooner.
     if diffuse == specular {
         return SurfaceLights { both: append(&mut diffuse.iter().copied()), diffuse: none, specular: none };
     }
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn of_many_lights_those_that_lists_name_are_sent_once() {
+    fn listed_lights_are_uploaded_once() {
         // At 0, 10, 20 and so on along the x axis, each reaching 6 units.
         let lights = Lights::in_a_row(1000, 10.0, 6.0);
         let mut lists = LightLists::default();
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn few_lights_are_all_sent_in_their_order() {
+    fn few_lights_are_all_uploaded_in_their_order() {
         let (sun, lamp, spot) = (DirectionalLight::white(), PointLight::white(), SpotLight::default());
         let lights = Lights::at_the_origin(&[sun.into(), lamp.into(), lamp.into(), spot.into()]);
         let mut lists = LightLists::default();

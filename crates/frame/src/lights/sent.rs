@@ -8,9 +8,9 @@ use halfway_lighting::record::LightRecord;
 pub struct SentLights {
     /// The records, in the order in which lists name them.
     pub records: Vec<LightRecord>,
-    /// Which they are.
+    /// The numbers of the lights.
     numbers: Vec<u32>,
-    /// Where in `records` each light is; [`NOWHERE`] where it has not been named.
+    /// The index in `records` of each light; [`NOWHERE`] if no list has named it.
     places: Vec<u32>,
 }
 
@@ -26,7 +26,7 @@ impl SentLights {
         self.places.resize(lights.len(), NOWHERE);
     }
 
-    /// Where in `records` this light is, from now on.
+    /// Adds this light unless `records` has it, and returns its index.
     pub(super) fn place(&mut self, lights: &Lights, number: u32) -> u32 {
         let place = &mut self.places[number as usize];
         if *place == NOWHERE {

@@ -1,16 +1,16 @@
-//! How the lights of a draw reach its shader: all of the scene at fixed places, or by lists.
+//! The lights of a draw in its shader: all of the scene in fixed slots, or by lists.
 
 use halfway_lighting::lights::KindSet;
 
 /// Up to this many lights in a scene are all shaded everywhere; of more, each patch has those that it needs.
 pub const COUNTED_LIGHTS: u32 = 8;
 
-/// How the lights reach the shader.
+/// The way the lights reach the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Lists {
     /// All lights of the scene, so many and of these kinds.
     Counted(u8, KindSet),
-    /// Those that the record's lists name, of all that are bound; of any kind.
+    /// The lights that the record's lists name, of all that are bound; of any kind.
     Listed,
 }
 
@@ -25,7 +25,7 @@ impl Lists {
         }
     }
 
-    /// How many lights the pipeline knows of.
+    /// The number of lights that the pipeline is compiled for.
     pub fn count(self) -> u8 {
         match self {
             Self::Counted(count, _) => count,

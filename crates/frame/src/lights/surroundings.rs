@@ -40,7 +40,7 @@ pub(crate) fn gather(
     }
     let Some((entity, light, name)) = all.into_iter().min_by_key(|(entity, ..)| *entity) else { return };
     if let Some(wrong) = light.wrong() {
-        let fields = Fields::of("EnvironmentLight");
+        let fields = Fields::for_owner("EnvironmentLight");
         if let Err(source) = fields.number(wrong.field, wrong.value, false, wrong.expected) {
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
         }

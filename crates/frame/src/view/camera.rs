@@ -33,7 +33,7 @@ pub struct View {
 }
 
 impl View {
-    /// How long a world unit is in the eye space of the shaders: a power of two, and 1 but for scenes so large or so
+    /// The length of a world unit in the eye space of the shaders: a power of two, and 1 but for scenes so large or so
     /// small that the squares of their distances leave f32. Holds after
     /// [`RenderSet::Select`](crate::sets::RenderSet::Select).
     pub fn unit(&self) -> f64 {

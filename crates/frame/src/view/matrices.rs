@@ -111,8 +111,8 @@ pub(crate) fn select(
     report.visible = visible.0.len() as u32;
 }
 
-/// Whether a matrix takes everything to a line or a point, so that no triangle has an area. What rounding would leave
-/// of one is not to be seen.
+/// Whether a matrix maps everything to a line or a point, so that no triangle has an area. An area that only rounding
+/// leaves is not visible.
 fn is_flat_twice(m: &DMat3) -> bool {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *m;
     [x.cross(y), y.cross(z), z.cross(x)].iter().all(|cofactors| *cofactors == DVec3::ZERO)
@@ -120,7 +120,7 @@ fn is_flat_twice(m: &DMat3) -> bool {
 
 /// Of the unit in which the shaders measure a scene whose farthest visible point is at this distance: squares of
 /// distances down to 10⁻¹⁷ of it, and of lights as far again beyond it, are normal numbers of f32. `SwiftShader` also
-/// multiplies the depths of three corners: from 10¹² on what is interpolated loses its perspective.
+/// multiplies the depths of three corners: from 10¹² on interpolated values lose their perspective.
 fn unit_exponent(farthest: f64) -> i32 {
     const MOST: i32 = 30;
     const LEAST: i32 = -40;

@@ -4,12 +4,12 @@
 use crate::equations::vector::{add, cross, dot, scale, sub, toward};
 use crate::equations::{Eye, Real};
 
-/// 32 ε: what a cosine is raised by, and the share by which a radius is widened and a distance shortened.
+/// 32 ε: every cosine is raised by it, and radii are widened and distances shortened by this share.
 ///
-/// The longest way from the scene's numbers to a cosine, Phong's with four angles added, has some thirty roundings of
-/// ε/2 each: half of this.
+/// The longest computation of a cosine from the scene's numbers, Phong's with four angles added, has some thirty
+/// roundings of ε/2 each: half of this.
 pub(crate) fn slack<T: Real>() -> T {
-    T::epsilon() * T::of(32.0)
+    T::epsilon() * T::from_f64(32.0)
 }
 
 /// An angle in [0, π]. Carrying the sine too keeps small angles: their cosine alone has lost them.
@@ -31,7 +31,7 @@ impl<T: Real> Angle<T> {
 
     /// `radians`, at least 0 and at most π; π where it is not a number.
     pub(crate) fn from_radians(radians: T) -> Self {
-        if radians < T::of(core::f64::consts::PI) {
+        if radians < T::from_f64(core::f64::consts::PI) {
             let radians = radians.max(T::zero());
             Self { cos: radians.cosine(), sin: radians.sine() }
         } else {
@@ -40,8 +40,7 @@ impl<T: Real> Angle<T> {
     }
 
     /// The acute angle whose sine is opposite/hypotenuse, widened by the slack; π where the quotient is not below 1. So
-    /// π stands for "any direction": the sphere or the ball of vectors that is looked at holds the place it is looked
-    /// at from.
+    /// π stands for "any direction": the sphere or the ball of vectors contains the viewing point.
     pub(crate) fn subtended(opposite: T, hypotenuse: T) -> Self {
         let widened = opposite * (T::one() + slack());
         if widened < hypotenuse {
@@ -90,9 +89,9 @@ impl<T: Real> Angle<T> {
     pub(crate) fn chord(self) -> T {
         // For a small angle 1 − cos a has lost its digits; sin a / cos(a/2) has not.
         if self.cos > T::zero() {
-            self.sin / ((T::one() + self.cos) * T::of(0.5)).sqrt()
+            self.sin / ((T::one() + self.cos) * T::from_f64(0.5)).sqrt()
         } else {
-            ((T::one() - self.cos) * T::of(2.0)).sqrt()
+            ((T::one() - self.cos) * T::from_f64(2.0)).sqrt()
         }
     }
 }

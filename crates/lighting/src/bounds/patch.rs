@@ -1,4 +1,4 @@
-//! A piece of surface, as far as the bounds know it.
+//! A patch of surface, as the bounds know it.
 
 use super::angle::{Angle, Cap};
 use crate::Faces;
@@ -8,7 +8,7 @@ use crate::equations::vector::{neg, normalize};
 /// A cone that holds all shading normals of a patch.
 ///
 /// Normals that are interpolated between those of vertices, and renormalised, stay in a cone with a half angle below
-/// π/2. A wider one must hold the interpolated normals by other reasons, or be left away.
+/// π/2. A wider one must hold the interpolated normals by other reasons, or be omitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalCone<T> {
     /// k, the middle of the normals, in the space of the evaluation. Need not have unit length; 0 stands for "any".
@@ -17,7 +17,7 @@ pub struct NormalCone<T> {
     pub half_angle: T,
 }
 
-/// An object or a part of one: where its points are, which normals they have, and which sides of it are seen.
+/// An object or a part of one: bounds of its points and its normals, and its visible sides.
 ///
 /// The bounds hold wherever the equation is evaluated on it: at vertices (an interpolated colour is no brighter than
 /// the brightest of its vertices), at fragments, and for flat shading if the cone holds the geometric normals.
@@ -29,17 +29,17 @@ pub struct Patch<T> {
     pub radius: T,
     /// The cone of the normals as modelled, those of the front; `None` for any normal.
     pub normals: Option<NormalCone<T>>,
-    /// How far any point is from the plane through c across the cone's axis: 0 for a plane, anything from r on where it
+    /// The largest distance of a point from the plane through c across the cone's axis: 0 for a plane, r or more if it
     /// is not known. Lights near a large flat patch are inside its sphere, but still before or behind it, and at a
     /// distance.
     pub half_thickness: T,
-    /// The sides that are seen with the coefficients at hand: a back face is lit with the flipped normal. A patch with
-    /// a [`BackMaterial`](crate::BackMaterial) is two patches, one a side.
+    /// The visible sides with these coefficients: a back face is lit with the flipped normal. A patch with a
+    /// [`BackMaterial`](crate::BackMaterial) is two patches, one a side.
     pub faces: Faces,
 }
 
 impl<T: Real> Patch<T> {
-    /// The normals of the side that is seen; of the front one where both are.
+    /// The normals of the visible side; of the front one if both are visible.
     pub(super) fn seen_normals(&self) -> Cap<T> {
         let cap = self.normals.and_then(|cone| {
             normalize(cone.axis).map(|axis| Cap { axis, spread: Angle::from_radians(cone.half_angle) })

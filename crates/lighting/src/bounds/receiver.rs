@@ -71,7 +71,7 @@ enum Lobe<T> {
     Mirror { spread: Angle<T> },
 }
 
-/// Where a light is, seen from the middle of the patch.
+/// The position of a light relative to the middle of the patch.
 #[derive(Clone, Copy)]
 pub(crate) struct Offset<T> {
     /// L − c; the unit vector l of a directional light.
@@ -84,11 +84,11 @@ pub(crate) struct Offset<T> {
     blur: T,
 }
 
-/// How a light arrives at the points of a patch.
+/// The directions and distances of a light at the points of a patch.
 pub(crate) struct Arrival<T> {
     /// Every l.
     l: Cap<T>,
-    /// The least angle between an l and the axis of the normals, known from the thickness; 0 where it tells nothing.
+    /// The least angle between an l and the axis of the normals, known from the thickness; 0 if that is unknown.
     rise: Angle<T>,
     /// The least distance from a point of the patch.
     pub(crate) nearest: T,
@@ -103,8 +103,8 @@ impl<T: Real> Arrival<T> {
 }
 
 impl<T: Real> Receiver<T> {
-    /// Prepares `patch` with the coefficients of the sides that are seen, all in one space. For coefficients that vary
-    /// over the patch, give the largest value of each channel, and the smallest shininess.
+    /// Prepares `patch` with the coefficients of its visible sides, all in one space. For coefficients that vary over
+    /// the patch, give the largest value of each channel, and the smallest shininess.
     pub fn new(patch: &Patch<T>, material: &Coefficients<T>, view: &Eye<T>, reflectance: Reflectance) -> Self {
         let normals = patch.seen_normals();
         let view = Cap::toward_eye(patch.center, patch.radius, view);
@@ -117,7 +117,7 @@ impl<T: Real> Receiver<T> {
         Self {
             center: patch.center,
             radius: patch.radius,
-            coincident: T::of(COINCIDENT.into()) * (length(patch.center) + patch.radius) * (T::one() + slack()),
+            coincident: T::from_f64(COINCIDENT.into()) * (length(patch.center) + patch.radius) * (T::one() + slack()),
             half_thickness: patch.half_thickness,
             normals,
             both_sides: patch.faces == Faces::Both,
@@ -130,7 +130,7 @@ impl<T: Real> Receiver<T> {
         }
     }
 
-    /// The bounds of the terms that may be lit, for a light with these colours that arrives so, with this weight at most.
+    /// The bounds of the terms that may be lit, for a light with these colours, this arrival and at most this weight.
     #[inline]
     pub(crate) fn bounds_of(
         &self,
@@ -145,7 +145,7 @@ impl<T: Real> Receiver<T> {
         }
         let arrival = arrival();
         // A product that left the number range is small, not 0.
-        let weight = weight(&arrival).max(T::min_positive_value()) * (T::one() + T::of(MARGIN));
+        let weight = weight(&arrival).max(T::min_positive_value()) * (T::one() + T::from_f64(MARGIN));
         let Arrival { l, rise, .. } = arrival;
         if lit.ambient {
             bounds.ambient = scale(mul(self.ka, colors.la), weight);
@@ -163,31 +163,31 @@ impl<T: Real> Receiver<T> {
     /// The sphere that a light's range overlaps if the light adds anything: that of the patch, widened by the distance
     /// within which a light may count as being at a point of it, and as much again for the rounding of positions.
     pub(crate) fn search_sphere(&self) -> ([T; 3], T) {
-        (self.center, (self.radius + self.coincident * T::of(2.0)) * (T::one() + slack()))
+        (self.center, (self.radius + self.coincident * T::from_f64(2.0)) * (T::one() + slack()))
     }
 
     // The terms that may be above 0 are found by signs alone: no power, and seldom a root. That is the first step of a
     // bound, and all that a tolerance of 0 asks for. The tests are those of the second table at `bounds`, multiplied by
     // D. A test fails only by more than its rounding, and never with NaN.
 
-    /// The way to a light whose l is the same everywhere.
+    /// The offset of a light whose l is the same everywhere.
     pub(crate) fn offset_along(l: [T; 3]) -> Offset<T> {
         Offset { vector: l, square: T::one(), radius: T::zero(), half_thickness: T::zero(), blur: slack() }
     }
 
-    /// The way to a light at a position; `None` where its square leaves the number range.
+    /// The offset of a light at a position; `None` if its square leaves the number range.
     #[inline]
     pub(crate) fn offset_to(&self, position: [T; 3]) -> Option<Offset<T>> {
         let vector = sub(position, self.center);
         let square = dot(vector, vector);
-        if !(square > T::min_positive_value() / T::epsilon() && square < T::max_value() * T::of(0.25)) {
+        if !(square > T::min_positive_value() / T::epsilon() && square < T::max_value() * T::from_f64(0.25)) {
             return None;
         }
         let blur = self.coincident + slack::<T>() * (norm1(vector) + self.radius);
         Some(Offset { vector, square, radius: self.radius, half_thickness: self.half_thickness, blur })
     }
 
-    /// Those of the terms that may be above 0 by the directions of the normals, the light and the viewer.
+    /// The terms that may be above 0 by the directions of the normals, the light and the viewer.
     #[inline]
     pub(crate) fn facing_terms(&self, offset: &Offset<T>, colored: LitTerms) -> LitTerms {
         let faces = (colored.diffuse || colored.specular) && self.may_face(offset);
@@ -213,7 +213,7 @@ impl<T: Real> Receiver<T> {
     #[inline]
     pub(crate) fn is_beyond(&self, range: T, offset: &Offset<T>) -> bool {
         let end = range.max(self.coincident) + self.radius;
-        offset.square * (T::one() - slack::<T>() * T::of(4.0)) > end * end
+        offset.square * (T::one() - slack::<T>() * T::from_f64(4.0)) > end * end
     }
 
     /// Whether the range of a light ends before the slab of the patch, or its cone passes the patch by.
@@ -260,12 +260,12 @@ impl<T: Real> Receiver<T> {
         !(cos > T::zero() && along <= -sin - blur)
     }
 
-    /// How a light arrives whose l is the same everywhere.
+    /// The arrival of a light whose l is the same everywhere.
     pub(crate) fn arrival_along(l: [T; 3]) -> Arrival<T> {
         Arrival { l: Cap::single(l), rise: Angle::zero(), nearest: T::zero() }
     }
 
-    /// How a light at `position` arrives.
+    /// The arrival of a light at `position`.
     pub(crate) fn arrival(&self, position: [T; 3]) -> Arrival<T> {
         let offset = sub(position, self.center);
         let square = dot(offset, offset);
@@ -289,7 +289,7 @@ impl<T: Real> Receiver<T> {
     fn slab(&self, offset: [T; 3], square: T, distance: T) -> (T, Angle<T>) {
         let k = self.normals.axis;
         // Squares beyond the number range say nothing.
-        if !(self.is_flat() && square < T::max_value() * T::of(0.25)) {
+        if !(self.is_flat() && square < T::max_value() * T::from_f64(0.25)) {
             return (T::zero(), Angle::zero());
         }
         let height = dot(offset, k);
@@ -351,7 +351,7 @@ impl<T: Real> Receiver<T> {
 
     /// The bounds of a light that brings at most this colour to the diffuse term, and nothing else.
     pub(crate) fn diffuse_bounds(&self, color: [T; 3]) -> TermBounds<T> {
-        let diffuse = scale(mul(self.kd, color), T::one() + T::of(MARGIN));
+        let diffuse = scale(mul(self.kd, color), T::one() + T::from_f64(MARGIN));
         TermBounds { diffuse, ..TermBounds::zero() }
     }
 

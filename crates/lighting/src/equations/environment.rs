@@ -22,7 +22,7 @@ pub fn mirrored<T: Real>(n: [T; 3], v: [T; 3]) -> [T; 3] {
 pub fn lobe_exponent<T: Real>(reflectance: Reflectance, exponent: T) -> T {
     match reflectance {
         Reflectance::Phong => exponent,
-        Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => T::of(0.25) * exponent,
+        Reflectance::BlinnPhong | Reflectance::BlinnPhongMatched => T::from_f64(0.25) * exponent,
     }
 }
 
@@ -32,14 +32,14 @@ pub fn lobe_exponent<T: Real>(reflectance: Reflectance, exponent: T) -> T {
 /// 1/(α + 3) along each of two axes. The weights of a bilinear lookup are a box of the variance s²/12 beside a tent of
 /// s²/6: s²/4 in all.
 pub fn lobe_angle<T: Real>(alpha: T) -> T {
-    T::of(2.0) / (alpha + T::of(3.0)).sqrt()
+    T::from_f64(2.0) / (alpha + T::from_f64(3.0)).sqrt()
 }
 
 /// E(n), of the polynomial of a normal of unit length: its coefficients of 1, y, z, x, xy, yz, 3z² − 1, xz and x² − y².
 /// Never below 0.
 pub fn mean_light<T: Real>(c: &[[T; 3]; 9], n: [T; 3]) -> [T; 3] {
     let [x, y, z] = n;
-    let terms = [T::one(), y, z, x, x * y, y * z, T::of(3.0) * z * z - T::one(), x * z, x * x - y * y];
+    let terms = [T::one(), y, z, x, x * y, y * z, T::from_f64(3.0) * z * z - T::one(), x * z, x * x - y * y];
     let sum = c.iter().zip(terms).fold([T::zero(); 3], |sum, (color, term)| add(sum, scale(*color, term)));
     sum.map(|channel| channel.max(T::zero()))
 }

@@ -5,10 +5,10 @@
 //!                     + att_i·spot_i·[ kd·Ld_i·max(n·l_i, 0) + ks·Ls_i·S_i ]
 //! ```
 //!
-//! [`shade`] is the whole of it, [`light_contribution`] one summand, [`light_terms`] its three terms, [`irradiance`]
-//! those before the material; the rest are the factors. [`surroundings`] is what an environment adds. All vectors have
-//! unit length unless said, all colours are linear RGB, angles are in radians. What goes in is made from the
-//! components: `Coefficients::from(&material)`, [`PointLight::at`](crate::PointLight::at),
+//! [`shade`] is the whole sum, [`light_contribution`] one summand, [`light_terms`] its three terms, [`irradiance`]
+//! those before the material; the other functions are the factors. [`surroundings`] are the terms of an environment.
+//! All vectors have unit length unless said, all colours are linear RGB, angles are in radians. Components make the
+//! arguments: `Coefficients::from(&material)`, [`PointLight::at`](crate::PointLight::at),
 //! [`SpotLight::at`](crate::SpotLight::at), [`DirectionalLight::along`](crate::DirectionalLight::along),
 //! [`Eye::in_eye_space`].
 //!

@@ -19,7 +19,7 @@ pub fn normal_matrix<T: Real>(m: [[T; 3]; 3]) -> [[T; 3]; 3] {
     let unit = m.map(normalize_or_zero);
     let cofactors = [cross(unit[1], unit[2]), cross(unit[2], unit[0]), cross(unit[0], unit[1])];
     let det = dot(unit[0], cofactors[0]);
-    let sign = if det < -T::epsilon() * T::of(8.0) { -T::one() } else { T::one() };
+    let sign = if det < -T::epsilon() * T::from_f64(8.0) { -T::one() } else { T::one() };
     // cof(M)ⱼ = (product of the other two lengths)·(cofactor of the unit columns)ⱼ. Times min/(product of all three):
     let shortest = lengths[0].min(lengths[1]).min(lengths[2]);
     let factor = lengths.map(|s| if s <= shortest { sign } else { sign * (shortest / s) });

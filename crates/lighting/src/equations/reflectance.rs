@@ -82,7 +82,7 @@ pub fn specular_term<T: Real>(
 pub fn axial_exponent<T: Real>(axes: [[T; 3]; 2], widths: [T; 3], h: [T; 3], otherwise: T) -> T {
     let [a, b] = axes.map(|axis| dot(h, axis));
     let squared = a * a + b * b;
-    if squared <= T::of(1e-30) {
+    if squared <= T::from_f64(1e-30) {
         return otherwise;
     }
     let [aa, ab, bb] = widths;
@@ -109,5 +109,5 @@ pub fn side_normal<T: Real>(n: [T; 3], front_facing: bool) -> [T; 3] {
 }
 
 fn normalize_above<T: Real>(a: [T; 3], shortest: f32) -> Option<[T; 3]> {
-    if super::vector::length(a) > T::of(f64::from(shortest)) { normalize(a) } else { None }
+    if super::vector::length(a) > T::from_f64(f64::from(shortest)) { normalize(a) } else { None }
 }

@@ -13,7 +13,7 @@ pub fn mapped_normal<T: Real>(n: [T; 3], t: [T; 3], w: T, texel: [T; 3], s: T, o
     let [x, y, z] = texel.map(|c| c + c - T::one());
     let b = scale(cross(n, t), w);
     let sum = add(add(scale(t, x * s), scale(b, y * s)), scale(n, z));
-    if length(n) > T::of(NORMAL_MIN.into()) { normalize(sum).unwrap_or(otherwise) } else { otherwise }
+    if length(n) > T::from_f64(NORMAL_MIN.into()) { normalize(sum).unwrap_or(otherwise) } else { otherwise }
 }
 
 /// The ways along which the normals of an image lie apart: perpendicular to n, a unit normal of the image. The first is
@@ -37,7 +37,7 @@ pub fn lobe_axes<T: Real>(n: [T; 3], t: [T; 3], w: T) -> [[T; 3]; 2] {
 /// ways are one, or nothing is left of the normal, it is `otherwise`.
 pub fn bumped_normal<T: Real>(n: [T; 3], m: [T; 3], along: [[T; 3]; 2], rises: [T; 2], otherwise: [T; 3]) -> [T; 3] {
     let size = length(n);
-    if size <= T::of(NORMAL_MIN.into()) {
+    if size <= T::from_f64(NORMAL_MIN.into()) {
         return otherwise;
     }
     let (n, m) = (scale(n, T::one() / size), scale(m, T::one() / size));
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_slope_keeps_its_normal() {
+    fn a_flat_height_keeps_its_normal() {
         let n = [0.0, 0.6, 0.8];
         let along = [[1.0, 0.0, 0.0], [0.0, 0.8, -0.6]];
         close(bumped_normal(n, n, along, [0.0; 2], n), n);

@@ -75,7 +75,7 @@ impl<T: Real> Coefficients<T> {
     }
 }
 
-/// Where the viewer is, in the space of the evaluation.
+/// The position of the viewer, in the space of the evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Eye<T> {
     /// The eye is at this point; v points from the surface to it.
@@ -106,13 +106,13 @@ pub fn rgb<T: Real>(color: LinearRgba) -> [T; 3] {
 }
 
 fn real<T: Real>(value: f32) -> T {
-    T::of(f64::from(value))
+    T::from_f64(f64::from(value))
 }
 
 /// The unit vector along the direction of a light.
 pub(crate) fn unit<T: Real>(owner: &'static str, direction: [T; 3]) -> Result<[T; 3], InvalidValue> {
     normalize(direction).ok_or_else(|| {
         let value = direction.map(|x| x.to_f32().unwrap_or(f32::NAN));
-        Fields::of(owner).error("direction", Problem::NoDirection { value })
+        Fields::for_owner(owner).error("direction", Problem::NoDirection { value })
     })
 }

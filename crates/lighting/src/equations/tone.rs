@@ -2,13 +2,13 @@
 
 use super::Real;
 
-/// Where [`aces`] has long reached 1: it does so at 7.25. More would overflow its squares.
+/// The largest argument of [`aces`], which reaches 1 at 7.25. More would overflow its squares.
 pub const ACES_WHITE: f32 = 8.0;
 
 /// The divisor of a picture whose largest channel is `largest`: that, where it exceeds 1. Of the divisor of the
 /// frame `before`, `smoothing` is kept.
 pub fn divisor<T: Real>(largest: T, before: T, smoothing: T) -> T {
-    let plain = if largest > T::of(1.0) { largest } else { T::of(1.0) };
+    let plain = if largest > T::from_f64(1.0) { largest } else { T::from_f64(1.0) };
     plain + smoothing * (before - plain)
 }
 
@@ -16,14 +16,15 @@ pub fn divisor<T: Real>(largest: T, before: T, smoothing: T) -> T {
 /// I·(1 + I/w²)/(1 + I), which takes the white point w to 1. `per_white` is 1/w²; 0 is the curve without a white point.
 pub fn reinhard<T: Real>(i: T, per_white: T) -> T {
     // The quotient first: it is below 1, so that nothing overflows that the result does not.
-    i / (T::of(1.0) + i) * (T::of(1.0) + i * per_white)
+    i / (T::from_f64(1.0) + i) * (T::from_f64(1.0) + i * per_white)
 }
 
 /// The filmic curve that Narkowicz (2015) fitted to that of the Academy Color Encoding System, of one channel:
 /// I·(2.51·I + 0.03)/(I·(2.43·I + 0.59) + 0.14), at most 1.
 pub fn aces<T: Real>(i: T) -> T {
-    let white = T::of(f64::from(ACES_WHITE));
+    let white = T::from_f64(f64::from(ACES_WHITE));
     let i = if i < white { i } else { white };
-    let curve = i * (T::of(2.51) * i + T::of(0.03)) / (i * (T::of(2.43) * i + T::of(0.59)) + T::of(0.14));
-    if curve < T::of(1.0) { curve } else { T::of(1.0) }
+    let curve = i * (T::from_f64(2.51) * i + T::from_f64(0.03))
+        / (i * (T::from_f64(2.43) * i + T::from_f64(0.59)) + T::from_f64(0.14));
+    if curve < T::from_f64(1.0) { curve } else { T::from_f64(1.0) }
 }

@@ -1,4 +1,4 @@
-//! The one door to functions that the standard library leaves to each platform.
+//! The only module that calls functions whose results the standard library leaves to each platform.
 //!
 //! `+`, `−`, `·`, `/`, the square root and the fused product are rounded to the nearest number everywhere (IEEE 754).
 //! Powers and the functions of angles are not: their last bits differ between systems. Here they are `libm`'s, whose

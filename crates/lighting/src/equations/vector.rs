@@ -9,17 +9,17 @@ use super::Transcendental;
 /// The numbers the equations run in: `f32` and `f64`.
 pub trait Real: Float + Transcendental + Debug + Send + Sync + 'static + sealed::Sealed {
     /// The number of this type nearest to `value`.
-    fn of(value: f64) -> Self;
+    fn from_f64(value: f64) -> Self;
 }
 
 impl Real for f32 {
-    fn of(value: f64) -> Self {
+    fn from_f64(value: f64) -> Self {
         value as f32
     }
 }
 
 impl Real for f64 {
-    fn of(value: f64) -> Self {
+    fn from_f64(value: f64) -> Self {
         value
     }
 }
@@ -100,7 +100,7 @@ pub fn toward<T: Real>(p: [T; 3], q: [T; 3]) -> (Option<[T; 3]>, T) {
         (normalize(offset), length(offset))
     } else {
         // The difference overflowed: half of it does not.
-        let half = T::of(0.5);
+        let half = T::from_f64(0.5);
         (normalize(sub(scale(q, half), scale(p, half))), T::max_value())
     }
 }

@@ -17,7 +17,7 @@ pub struct Selected {
     pub specular: Vec<u32>,
     /// The sum of the bounds of all terms left out, per channel; at most the tolerance.
     pub left_out: [f64; 3],
-    /// How many lights have been evaluated for it.
+    /// The number of lights that have been evaluated for it.
     pub evaluated: usize,
     /// The terms that have a bound, by light.
     terms: Vec<Term>,

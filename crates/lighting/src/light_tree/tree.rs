@@ -4,7 +4,7 @@ use super::Selected;
 use crate::bounds::Receiver;
 use crate::lights::{Light, LightSource};
 
-/// How many boxes are tested together.
+/// The number of boxes that are tested together.
 const WIDTH: usize = 8;
 
 /// Relative margin of ranges: more than the rounding of the boxes.
@@ -43,7 +43,7 @@ pub struct LightTree {
     /// Level after level. The first level has a box for each key, and each box of another level holds a block of the
     /// level before.
     blocks: Vec<Block>,
-    /// Where each level starts. The last one has one block.
+    /// The first block of each level. The last one has one block.
     levels: Vec<usize>,
 }
 

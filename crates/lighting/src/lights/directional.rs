@@ -78,7 +78,7 @@ impl DirectionalLight {
     /// # Errors
     /// The first colour channel that is negative, above 10¹² or not a number.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        field::validate(self, Fields::of("DirectionalLight"))
+        field::validate(self, Fields::for_owner("DirectionalLight"))
     }
 }
 
@@ -108,7 +108,7 @@ pub struct Directional<T> {
 impl<T: Real> Directional<T> {
     /// The same at every point.
     fn arriving(&self) -> Incidence<T> {
-        Incidence { l: self.toward, grazing: T::of(GRAZING.into()), weight: T::one() }
+        Incidence { l: self.toward, grazing: T::from_f64(GRAZING.into()), weight: T::one() }
     }
 }
 

@@ -74,7 +74,7 @@ impl HemisphereLight {
     /// # Errors
     /// The first colour channel that is negative, above 10¹² or not a number.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        field::validate(self, Fields::of("HemisphereLight"))
+        field::validate(self, Fields::for_owner("HemisphereLight"))
     }
 }
 
@@ -106,7 +106,7 @@ impl<T: Real> Hemisphere<T> {
     /// lerp(ground, sky, (1 + n·d)/2); rounding of the cosine leaves the mixture between the two.
     fn mixture(&self, n_dot_d: T) -> [T; 3] {
         let one = T::one();
-        let share = ((one + n_dot_d) * T::of(0.5)).max(T::zero()).min(one);
+        let share = ((one + n_dot_d) * T::from_f64(0.5)).max(T::zero()).min(one);
         add(scale(self.ground, one - share), scale(self.sky, share))
     }
 }

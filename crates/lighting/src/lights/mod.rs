@@ -2,8 +2,7 @@
 //!
 //! The file of a kind holds its component, its maths, its bound, its record, its WGSL function and its fields in scene
 //! files. One list names the kinds: from it come [`Light`], [`LightComponent`], [`Kind`], the WGSL that calls the function
-//! of a light's kind, and `LightQueries`. Whatever draws asks a light by the traits
-//! [`LightKind`] and [`LightSource`].
+//! of a light's kind, and `LightQueries`. Renderers use a light through the traits [`LightKind`] and [`LightSource`].
 
 /// Names the kinds once, for each macro that makes something of them.
 macro_rules! with_kinds {
@@ -56,8 +55,8 @@ pub trait LightKind: Described + Debug + PartialEq {
     const NAME: &'static str;
     /// The name of its function in [`WGSL`](Self::WGSL).
     const FUNCTION: &'static str;
-    /// Its function in WGSL: what one light of the kind brings to a point. It takes the light, p, n, v, the shininess and
-    /// the terms that are shaded, and gives an `Irradiance`.
+    /// Its function in WGSL: the light of one light of the kind at a point. It takes the light, p, n, v, the shininess
+    /// and the terms that are shaded, and gives an `Irradiance`.
     const WGSL: &'static str;
 
     /// A light of this kind in the number type and the space of an evaluation.
@@ -69,7 +68,7 @@ pub trait LightKind: Described + Debug + PartialEq {
     /// The first field that is outside the range it documents.
     fn validate(&self) -> Result<(), InvalidValue>;
 
-    /// The light where its entity stands.
+    /// The light at the transform of its entity.
     ///
     /// # Errors
     /// The entity has no position or no direction, where the kind needs it.
@@ -78,7 +77,7 @@ pub trait LightKind: Described + Debug + PartialEq {
     /// The same light in another number type, each number rounded once.
     fn cast<T: Real, U: Real>(source: &Self::Source<T>) -> Self::Source<U>;
 
-    /// A light in world space as a view sees it.
+    /// A light in world space, transformed into a view.
     fn in_eye_space(source: &Self::Source<f64>, view: &LightView) -> Self::Source<f64>;
 
     /// Its demands on the shaders that evaluate it.
@@ -118,7 +117,7 @@ pub trait LightSource<T: Real>: Copy + Debug + PartialEq {
 
 /// The frame of a light's entity, in the space of the evaluation.
 pub trait LightFrame {
-    /// Where it stands.
+    /// Its position.
     ///
     /// # Errors
     /// A coordinate is not finite.
@@ -137,7 +136,7 @@ pub trait LightFrame {
     fn up(&self) -> Result<[f64; 3], InvalidValue>;
 }
 
-/// How a view sees lights of the world.
+/// The transform of lights from the world into a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightView {
     /// From the world into eye space.
@@ -382,7 +381,7 @@ macro_rules! light_kinds {
         }
 
         impl Light<f64> {
-            /// A light in world space as a view sees it.
+            /// A light in world space, transformed into a view.
             #[must_use]
             pub fn in_eye_space(&self, view: &LightView) -> Self {
                 match self {

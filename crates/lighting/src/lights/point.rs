@@ -114,7 +114,7 @@ impl PointLight {
     /// # Errors
     /// The first field that is outside the range it documents.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.validate_as(Fields::of("PointLight"))
+        self.validate_as(Fields::for_owner("PointLight"))
     }
 
     pub(super) fn validate_as(&self, fields: Fields) -> Result<(), InvalidValue> {
@@ -180,12 +180,13 @@ pub struct Point<T> {
 }
 
 impl<T: Real> Point<T> {
-    /// How it arrives at a point. Where the light is at the point itself ([`COINCIDENT`]) l is n and the distance 0.
+    /// Its direction and strength at a point. If the light is at the point itself ([`COINCIDENT`]) l is n and the
+    /// distance 0.
     pub(super) fn arriving_at(&self, surface: &ShadedPoint<T>) -> Incidence<T> {
-        let least = T::of(GRAZING.into());
+        let least = T::from_f64(GRAZING.into());
         let from_eye = length(surface.position);
         let (l, d, grazing) = match toward(surface.position, self.position) {
-            (Some(l), d) if d > T::of(COINCIDENT.into()) * from_eye => (l, d, least + least * (from_eye / d)),
+            (Some(l), d) if d > T::from_f64(COINCIDENT.into()) * from_eye => (l, d, least + least * (from_eye / d)),
             _ => (surface.normal, T::zero(), T::zero()),
         };
         let window = self.range.map_or(T::one(), |range| range_window(d, range));
@@ -252,7 +253,7 @@ impl Point<f64> {
     pub(super) fn seen(&self, view: &LightView) -> Self {
         let LightView { eye_from_world, unit: least, farthest } = *view;
         let position = eye_from_world.transform_point3(self.position.into());
-        // Which is so of nearly all, and takes no division.
+        // True of nearly all points, and takes no division.
         if least == 1.0 && position.length_squared() <= farthest * farthest {
             return Self { position: position.to_array(), ..*self };
         }

@@ -102,7 +102,7 @@ impl SpotLight {
     /// # Errors
     /// The first field that is outside the range it documents.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        let fields = Fields::of("SpotLight");
+        let fields = Fields::for_owner("SpotLight");
         self.light.validate_as(fields.inside("light."))?;
         self.cone.validate_as(fields.inside("cone."))
     }
@@ -122,7 +122,7 @@ pub struct Spot<T> {
 }
 
 impl<T: Real> Spot<T> {
-    /// How it arrives at a point.
+    /// Its direction and strength at a point.
     fn arriving_at(&self, surface: &ShadedPoint<T>) -> Incidence<T> {
         let incident = self.point.arriving_at(surface);
         let spot = spot_factor(dot(neg(incident.l), self.cone.direction), &self.cone);

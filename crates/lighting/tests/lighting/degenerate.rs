@@ -1,4 +1,4 @@
-//! What is degenerate equals what is simpler.
+//! Degenerate inputs give the results of the simpler inputs they equal.
 
 use core::f32::consts::PI;
 

@@ -39,7 +39,7 @@ fn every_light_brings_its_transform() {
 }
 
 #[test]
-fn a_light_moves_with_what_it_is_attached_to() {
+fn a_light_moves_with_its_parent() {
     let mut app = App::new();
     app.add_plugins((TransformPlugin, LightingPlugin));
     let quarter_turn = Transform::from_xyz(10.0, 0.0, 0.0)
@@ -61,7 +61,7 @@ fn a_light_moves_with_what_it_is_attached_to() {
 }
 
 #[test]
-fn one_entity_tells_whether_transforms_are_propagated() {
+fn one_entity_shows_whether_transforms_are_propagated() {
     let (here, there) = (Transform::from_xyz(1.0, 2.0, 3.0), Transform::from_xyz(4.0, 5.0, 6.0));
     let (origin, nowhere) = (Transform::IDENTITY, Transform::from_xyz(f32::NAN, 0.0, 0.0));
     let none = GlobalTransform::IDENTITY;

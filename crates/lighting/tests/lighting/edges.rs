@@ -15,7 +15,7 @@ const BLINN: [Reflectance; 2] = [Reflectance::BlinnPhong, Reflectance::BlinnPhon
 const KD: f32 = 0.25;
 const KS: f32 = 0.5;
 
-/// What one light makes of a point, as `kd·diffuse + ks·specular` with every colour white.
+/// The intensity of one light at a point, as `kd·diffuse + ks·specular` with every colour white.
 struct Row {
     name: &'static str,
     surface: ShadedPoint<f64>,

@@ -1,4 +1,4 @@
-//! What `halfway_lighting` promises, row by row.
+//! The promises of `halfway_lighting`, a test each.
 
 // Equality is meant where it is asserted: constants, exact edges, one path equal to another.
 #![allow(clippy::float_cmp)]

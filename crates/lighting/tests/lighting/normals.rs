@@ -188,7 +188,8 @@ proptest! {
     }
 }
 
-/// How far rounding to f32 may turn the normal of a transform; `None` where it may take or turn all of it.
+/// The largest angle by which rounding to f32 may turn the normal of a transform; `None` if it may lose the normal
+/// altogether.
 fn angle_of_rounding(m: Mat3, n: [f64; 3]) -> Option<f64> {
     let lengths = m.map(length);
     let unit = m.map(|column| normalize(column).unwrap_or([0.0; 3]));

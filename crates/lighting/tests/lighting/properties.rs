@@ -173,7 +173,7 @@ impl Case {
         if self.nearness() < 1.0 { [0.0; 3] } else { sub(to_f64(self.place), to_f64(self.position)) }
     }
 
-    /// How far the light is from the lit point, 1 being where it begins to count as being there.
+    /// The distance of the light from the lit point, in units of the distance within which it counts as at the point.
     fn nearness(&self) -> f64 {
         let p = to_f64(self.position);
         length(sub(to_f64(self.place), p)) / (f64::from(COINCIDENT) * length(p)).max(f64::MIN_POSITIVE)
@@ -192,7 +192,7 @@ impl Case {
     }
 
     fn light<T: Real>(&self) -> Light<T> {
-        let [place, direction] = [self.place, self.direction].map(|a| a.map(|x| T::of(x.into())));
+        let [place, direction] = [self.place, self.direction].map(|a| a.map(|x| T::from_f64(x.into())));
         let PointLight { ambient, diffuse, specular, .. } = self.light;
         match self.kind {
             Kind::Point => self.light.at(place),
@@ -202,7 +202,7 @@ impl Case {
     }
 
     fn evaluated<T: Real>(&self) -> [f64; 3] {
-        let of = |a: [f32; 3]| a.map(|x| T::of(x.into()));
+        let of = |a: [f32; 3]| a.map(|x| T::from_f64(x.into()));
         let unit = |a: [f32; 3]| normalize(of(a)).expect("a direction");
         let surface = ShadedPoint { position: of(self.position), normal: unit(self.normal) };
         let view = match self.view {
@@ -217,7 +217,7 @@ impl Case {
     /// Fails unless the evaluation in `T` is a color, and one that `rounding` explains.
     fn check<T: Real>(&self, rounding: Rounding) -> Result<(), TestCaseError> {
         let got = self.evaluated::<T>();
-        for (value, exact) in got.into_iter().zip(rounding.of(self)) {
+        for (value, exact) in got.into_iter().zip(rounding.intensity(self)) {
             prop_assert!(value.is_finite() && value >= 0.0, "{got:?}");
             prop_assert!((exact.low..=exact.high).contains(&value), "{value:e} is not in {exact:?}");
         }
@@ -225,14 +225,14 @@ impl Case {
     }
 }
 
-/// How far a computed number may lie from the exact one.
+/// The allowed distance of a computed number from the exact one.
 #[derive(Clone, Copy)]
 struct Rounding {
     /// A cosine of two vectors, each computed from two points: absolute.
     cosine: f64,
     /// Products, quotients and sums of what is not negative: relative.
     relative: f64,
-    /// What underflow takes from a factor: absolute.
+    /// The loss of a factor by underflow: absolute.
     least: f64,
 }
 
@@ -242,7 +242,7 @@ const F32: Rounding = Rounding { cosine: 7e-7, relative: 2e-6, least: f32::MIN_P
 /// The same count of 10⁻¹⁶; the enclosure itself is computed so.
 const F64: Rounding = Rounding { cosine: 2e-15, relative: 1e-14, least: f64::MIN_POSITIVE };
 
-/// Where an exact number of 0 or more lies.
+/// The interval of an exact number of 0 or more.
 #[derive(Clone, Copy, Debug)]
 struct Between {
     low: f64,
@@ -261,7 +261,7 @@ impl Between {
 
 impl Rounding {
     /// I of a case.
-    fn of(self, case: &Case) -> [Between; 3] {
+    fn intensity(self, case: &Case) -> [Between; 3] {
         let unit = |a: [f32; 3]| normalize(to_f64(a)).expect("a direction");
         let n = unit(case.normal);
         let p = to_f64(case.position);

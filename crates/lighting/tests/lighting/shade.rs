@@ -17,7 +17,7 @@ use crate::support::{close, close3, distinct_material};
 /// A point at the origin facing +Z.
 const SURFACE: ShadedPoint<f64> = ShadedPoint { position: [0.0; 3], normal: [0.0, 0.0, 1.0] };
 
-/// How a light arrives at the surface that does not come from all around.
+/// The direction and strength at the surface of a light that does not come from all around.
 fn arriving(light: &Light<f64>) -> Incidence<f64> {
     incidence(&SURFACE, light).expect("a direction")
 }

@@ -1,4 +1,4 @@
-//! What is hidden, by an entity's own choice and by those above it.
+//! The hidden entities, by their own visibility and by that of their ancestors.
 
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::RunSystemOnce;

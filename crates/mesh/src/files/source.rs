@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::LoadError;
 
-/// How a model is loaded.
+/// The options for loading a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LoadOptions {
     /// Whether files that the model refers to may lie outside its own folder: by an absolute path, by `..`, or behind a
@@ -64,7 +64,7 @@ pub(super) struct Reader<'a> {
     on_progress: Option<&'a OnProgress<'a>>,
     done: u64,
     of: u64,
-    told: u64,
+    reported: u64,
 }
 
 impl<'a> Reader<'a> {
@@ -90,7 +90,7 @@ impl<'a> Reader<'a> {
         if of == 0 {
             return Err(LoadError::Empty { path: path.to_owned() });
         }
-        Ok(Self { path, from: Box::new(from), on_progress, done: 0, of, told: 0 })
+        Ok(Self { path, from: Box::new(from), on_progress, done: 0, of, reported: 0 })
     }
 
     pub(super) fn path(&self) -> &'a Path {
@@ -157,10 +157,10 @@ impl<'a> Reader<'a> {
 
     fn advance(&mut self, bytes: usize) -> Result<(), LoadError> {
         self.done += bytes as u64;
-        if self.done - self.told < REPORT {
+        if self.done - self.reported < REPORT {
             return Ok(());
         }
-        self.told = self.done;
+        self.reported = self.done;
         let progress = LoadProgress { done: self.done, of: self.of.max(self.done) };
         match self.on_progress.map_or(ControlFlow::Continue(()), |on_progress| on_progress(progress)) {
             ControlFlow::Continue(()) => Ok(()),

@@ -16,7 +16,7 @@ pub(crate) use means::vertex_normals;
 #[cfg(feature = "formats")]
 pub(crate) use split::{Smoothed, grouped_normals};
 
-/// How a mesh gets its normals.
+/// The way a mesh gets its normals.
 ///
 /// ```
 /// use halfway_mesh::{Cuboid, Mesh, NormalWeighting, Normals};

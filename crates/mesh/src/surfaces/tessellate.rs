@@ -84,7 +84,7 @@ pub trait ParametricSurface {
     }
 }
 
-/// How finely a surface is cut into triangles.
+/// The fineness of the triangles of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tessellation {
     /// Into this many cells.

@@ -1,4 +1,4 @@
-//! How much memory making levels of detail takes at most.
+//! The largest amount of memory that making levels of detail takes.
 
 use std::sync::atomic::AtomicBool;
 

@@ -134,7 +134,7 @@ const ROWS: &[Row] = &[
         "{\"byteLength\":104},{\"byteLength\":104}",
         "buffers[1]: neither; a uri, or a binary chunk for the first buffer, is expected",
     ),
-    // Where data may come from.
+    // Sources of data.
     ("file missing", "{\"byteLength\":104}", "{\"byteLength\":104,\"uri\":\"gone.bin\"}", "gone.bin: cannot be read: "),
     (
         "path escape",

@@ -75,7 +75,7 @@ fn extensions_are_read_in_either_case() {
 }
 
 #[test]
-fn formats_are_told_by_the_extension() {
+fn the_extension_selects_the_format() {
     for format in Format::ALL {
         let name = format!("a.b.{}", format.extension().to_ascii_uppercase());
         assert_eq!(Format::from_path(Path::new(&name)), Some(format));
@@ -137,7 +137,7 @@ fn large_buffers_report_too() {
 
 #[cfg(unix)]
 #[test]
-fn files_outside_the_folder_are_read_only_when_told_so() {
+fn files_outside_the_folder_need_an_option() {
     let folder = Folder::new();
     let library = folder.write("outside/red.mtl", "newmtl red\n");
     std::fs::create_dir_all(folder.path().join("inside")).unwrap();

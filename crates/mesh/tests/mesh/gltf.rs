@@ -301,7 +301,7 @@ fn a_metallic_roughness_texture_is_skipped_by_name() {
     assert_eq!(
         load_glb(&json, &triangle_data()).unwrap().warnings,
         [
-            // The one that no material names.
+            // The image that no material names.
             "textures are skipped (1)",
             "materials[0]: the metallic-roughness texture is skipped; the factors alone count",
         ]

@@ -65,7 +65,7 @@ fn binary(big: bool) -> Vec<u8> {
 }
 
 #[test]
-fn all_encodings_say_the_same() {
+fn all_encodings_give_the_same_mesh() {
     let expected = load(ascii());
     let mesh = &expected.parts[0].mesh;
     assert_eq!(mesh.positions(), [Vec3::new(2., -1., 0.), Vec3::new(0., 3., 0.), Vec3::new(-2., -1., 0.), Vec3::ZERO]);
@@ -86,7 +86,7 @@ fn all_encodings_say_the_same() {
 const TRIANGLE: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 #[test]
-fn files_as_they_are_about_are_read() {
+fn common_variants_of_files_are_read() {
     let plain = load(TRIANGLE);
     assert_eq!(plain.parts[0].mesh.normals(), [Vec3::Z; 3]);
     assert!(plain.warnings.is_empty() && plain.parts[0].mesh.colors().is_none(), "{:?}", plain.warnings);

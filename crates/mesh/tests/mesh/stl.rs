@@ -59,7 +59,7 @@ fn triangles_share_their_equal_corners() {
 }
 
 #[test]
-fn solids_become_parts_and_oddities_are_said() {
+fn solids_become_parts_and_oddities_are_warnings() {
     let two = load(format!("{}{}solid empty\nendsolid\n", ascii(), ascii().replace("a square", "")));
     let names: Vec<_> = two.parts.iter().map(|part| &part.name[..]).collect();
     assert_eq!(names, ["a square", "model"]);

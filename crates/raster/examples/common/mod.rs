@@ -6,7 +6,7 @@ use halfway_lighting::{Frequency, Lens, Samples, Terms};
 use halfway_mesh::{Mesh, UvSphere};
 use halfway_raster::{DrawCall, Pass, Pieces, PixelFormat, RasterError, TriangleOrder, VertexLists};
 
-/// Where terms are shaded.
+/// The frequency of shading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shading {
     Constant,
@@ -19,7 +19,7 @@ impl Shading {
     pub(crate) const ALL: [Self; 4] = [Self::Constant, Self::Flat, Self::Gouraud, Self::Phong];
 }
 
-/// All that a pass borrows.
+/// The data that a pass borrows.
 pub(crate) struct Scene {
     pub(crate) size: [u32; 2],
     pub(crate) samples: Samples,
@@ -35,7 +35,7 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// Draws with what it holds.
+    /// Calls `draw` with a pass that borrows the data.
     pub(crate) fn with_pass<R>(&self, draw: impl FnOnce(&Pass) -> R) -> R {
         let meshes: Vec<_> = self.meshes.iter().collect();
         draw(&Pass {
@@ -63,7 +63,7 @@ pub(crate) fn lens([width, height]: [u32; 2], degrees: f64) -> Lens {
     Lens::perspective([(y * f64::from(height) / f64::from(width)) as f32, y as f32], 0.1)
 }
 
-/// A mesh made ready.
+/// A mesh cut into pieces.
 pub(crate) fn pieces(mesh: &Mesh, order: TriangleOrder) -> Result<Pieces, RasterError> {
     let positions: Vec<_> = mesh.positions().iter().map(|&p| p.into()).collect();
     let normals: Vec<_> = mesh.normals().iter().map(|&n| n.into()).collect();

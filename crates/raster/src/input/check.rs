@@ -1,4 +1,4 @@
-//! Whether a pass can be drawn: references within their lists, numbers finite and in their ranges.
+//! Validates a pass: references within their lists, numbers finite and in their ranges.
 
 use crate::error::{LARGEST_SIDE, RasterError};
 use crate::input::pass::{DrawCall, DrawMaps, Output, Pass};
@@ -8,7 +8,7 @@ use halfway_lighting::record::{InstanceRecord, LightRange, LightRecord, SurfaceL
 use halfway_texture::environment::SurroundingsData;
 use halfway_texture::{MapKind, SolidTexture};
 
-/// Checks all of a pass but what drawing it finds out.
+/// Checks a pass, except for faults that drawing itself detects.
 pub(crate) fn check(pass: &Pass, output: &Output) -> Result<(), RasterError> {
     check_size(pass, output)?;
     check_view(pass)?;

@@ -13,9 +13,9 @@ use std::ops::Range;
 pub struct Pass<'a> {
     /// Pixels in a row, and rows: 1 to [`LARGEST_SIDE`](crate::LARGEST_SIDE) each.
     pub size: [u32; 2],
-    /// How many points a pixel takes.
+    /// The coverage samples a pixel.
     pub samples: Samples,
-    /// The values that are written of a pixel.
+    /// The format of a pixel's values.
     pub pixels: PixelFormat,
     /// The color where nothing is drawn.
     pub clear: [f32; 3],
@@ -30,7 +30,7 @@ pub struct Pass<'a> {
     pub lists: &'a [u32],
     /// The materials of surfaces, and their lights.
     pub surfaces: &'a [SurfaceRecord],
-    /// Where meshes stand.
+    /// The transforms of meshes, with their surfaces.
     pub instances: &'a [InstanceRecord],
     /// The meshes.
     pub meshes: &'a [&'a Pieces],
@@ -38,13 +38,13 @@ pub struct Pass<'a> {
     pub maps: &'a [MapData],
     /// The environment.
     pub surroundings: Option<&'a SurroundingsData>,
-    /// The draws, first to last. Of opaque fragments in equal depth the first drawn stays. Blended ones are drawn
-    /// over all opaque ones, in this order.
+    /// The draws, first to last. Of opaque fragments at equal depth the first drawn stays. Blended ones are drawn over
+    /// all opaque ones, in this order.
     pub draws: &'a [DrawCall],
 }
 
 impl Pass<'_> {
-    /// Whether the environment is seen where nothing is drawn.
+    /// Whether the environment is drawn as the sky.
     pub(crate) fn shows_sky(&self) -> bool {
         self.surroundings.is_some_and(|around| around.sky.is_some())
     }
@@ -69,14 +69,14 @@ impl PixelFormat {
     }
 }
 
-/// An image, and where on it texture coordinates lie.
+/// An image, and its transform of texture coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapData {
     /// The image.
     pub pyramid: Pyramid,
     /// Coordinates on it are the products of these rows with (u, v, 1).
     pub rows: [[f32; 3]; 2],
-    /// How much it counts; see [`SurfaceMap::amount`](halfway_texture::SurfaceMap::amount).
+    /// The strength; see [`SurfaceMap::amount`](halfway_texture::SurfaceMap::amount).
     pub amount: f32,
 }
 
@@ -85,11 +85,11 @@ pub struct MapData {
 pub struct MapCall {
     /// Its number among [`Pass::maps`].
     pub map: u32,
-    /// How it is looked up.
+    /// The filters and the wrapping.
     pub sampling: Sampling,
-    /// By which coordinates.
+    /// The set of texture coordinates.
     pub uv_set: UvSet,
-    /// The number that counts where one does.
+    /// The channel, for images of single numbers.
     pub channel: Channel,
     /// The treatment of highlights under minified normals.
     pub far_normals: FarNormals,
@@ -100,11 +100,11 @@ pub struct MapCall {
 pub struct DrawMaps {
     /// Images, each in the slot of its kind.
     pub calls: [Option<MapCall>; MapKind::COUNT],
-    /// Fragments of a lower opacity are not there.
+    /// Fragments of a lower opacity are discarded.
     pub mask: Option<f32>,
     /// The solid that the mesh is cut from: it multiplies base, diffuse and ambient at each pixel.
     pub solid: Option<SolidTexture>,
-    /// The surface is lit inside out, which turns the tangents of a normal map.
+    /// The surface is lit inside out, which flips the tangents of a normal map.
     pub inside_out: bool,
     /// The environment lights it.
     pub surrounded: bool,
@@ -136,21 +136,21 @@ pub struct DrawCall {
     pub indices: Range<u32>,
     /// The instances.
     pub instances: Range<u32>,
-    /// Where each term is shaded.
+    /// The frequency of each term.
     pub terms: Terms,
-    /// The formula of highlights. A matched exponent is matched already.
+    /// The formula of highlights. For matched highlights the material's exponent is already matched.
     pub reflectance: Reflectance,
-    /// The side that is left out.
+    /// The culled side.
     pub cull: Cull,
     /// Fronts wind clockwise: the transform mirrors, or the surface is lit inside out.
     pub clockwise: bool,
-    /// Interpolated normals may vanish; where they do the triangle's own takes their place.
+    /// Interpolated normals may vanish, and are then replaced by the triangle's own.
     pub opposite_normals: bool,
     /// The mesh's colors multiply base, diffuse and ambient, and the opacity.
     pub colored: bool,
     /// Images, a mask, a solid and an environment.
     pub maps: Option<DrawMaps>,
-    /// Fragments are laid over what is there by their opacity, and leave the depth as it is.
+    /// Fragments are blended by their opacity, and do not write depth.
     pub blend: bool,
 }
 
@@ -173,7 +173,7 @@ impl Default for DrawCall {
     }
 }
 
-/// Where the picture goes: 4 values a pixel, row by row from the top.
+/// The memory of the picture: 4 values a pixel, row by row from the top.
 #[derive(Debug)]
 pub enum Output<'a> {
     /// For the two formats of bytes.

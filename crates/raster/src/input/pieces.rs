@@ -1,4 +1,4 @@
-//! A mesh made ready: cut into pieces whose vertices lie together.
+//! A mesh prepared for the rasterizer: cut into pieces with vertices of their own.
 
 use crate::error::RasterError;
 use rayon::prelude::*;
@@ -11,8 +11,8 @@ pub(crate) const PIECE_VERTICES: usize = 96;
 /// Vertices begin at multiples of this, the largest width.
 const ALIGNED: usize = 16;
 
-/// A mesh made ready for drawing: pieces of up to 64 triangles with vertices of their own, so that each is transformed,
-/// culled and put into the tiles of the picture by itself. Made once for a mesh, and kept with it.
+/// A mesh prepared for drawing: pieces (meshlets) of up to 64 triangles with vertices of their own, so that each is
+/// transformed, culled and binned into tiles by itself. Made once for a mesh, and kept with it.
 #[derive(Clone, Debug, Default)]
 pub struct Pieces {
     pub(crate) each: Vec<Piece>,
@@ -35,7 +35,7 @@ pub struct Pieces {
     pub(crate) extent: PieceExtent,
 }
 
-/// Where points lie, in model space: in a sphere, and in a box with the same center.
+/// Bounds of points in model space: a sphere, and a box with the same center.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PieceExtent {
     pub(crate) center: [f32; 3],
@@ -53,7 +53,8 @@ pub(crate) struct Piece {
     pub(crate) vertex_count: u32,
     pub(crate) triangles: Range<u32>,
     pub(crate) extent: PieceExtent,
-    /// Of its face normals the axis, and the sine and cosine of the largest angle to it; `None` where they spread wide.
+    /// The cone of its face normals: the axis, and the sine and cosine of the largest angle to it; `None` if they
+    /// spread too wide.
     pub(crate) cone: Option<FaceCone>,
     /// Interpolated normals may vanish in some of its triangles.
     pub(crate) opposite_normals: bool,
@@ -67,13 +68,13 @@ pub(crate) struct FaceCone {
     pub(crate) cos: f32,
 }
 
-/// In which order a run's triangles are drawn.
+/// The drawing order of a run's triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TriangleOrder {
-    /// Those that lie together come together: faster. Triangles with the same corners keep their order.
+    /// Neighbouring triangles are grouped, which is faster. Triangles with the same corners keep their order.
     #[default]
     Clustered,
-    /// As in the list, for surfaces that blend.
+    /// As in the list, for blended surfaces.
     Kept,
 }
 
@@ -123,7 +124,7 @@ impl Pieces {
             let (index, reaches, available) = (cuts.len(), u64::from(end), indices.len() as u64);
             return Err(RasterError::Reference { what: "cut", index, field: "indices", reaches, available });
         }
-        pieces.extent = PieceExtent::of(positions.iter().copied());
+        pieces.extent = PieceExtent::around(positions.iter().copied());
         Ok(pieces)
     }
 
@@ -153,7 +154,7 @@ impl Pieces {
                 gather(&mut self.colors, colors, &vertices);
                 gather(&mut self.uvs, uvs, &vertices);
                 gather(&mut self.tangents, tangents, &vertices);
-                self.extent = PieceExtent::of(positions.iter().copied());
+                self.extent = PieceExtent::around(positions.iter().copied());
             },
             || {
                 self.each.par_iter_mut().with_min_len(16).for_each(|piece| {
@@ -161,7 +162,7 @@ impl Pieces {
                     let triangles = piece.triangles.start as usize..piece.triangles.end as usize;
                     let corners = &indices.as_chunks::<3>().0[triangles];
                     let points = |corners: &[u32; 3]| corners.map(|corner| positions[corner as usize]);
-                    piece.extent = PieceExtent::of(vertices[own].iter().map(|&vertex| positions[vertex as usize]));
+                    piece.extent = PieceExtent::around(vertices[own].iter().map(|&vertex| positions[vertex as usize]));
                     piece.cone = cone(corners.iter().map(points));
                     piece.opposite_normals = corners.iter().any(|corners| has_opposite_normals(normals, *corners));
                 });
@@ -216,8 +217,8 @@ impl Pieces {
         self.triangles.len()
     }
 
-    /// The pieces of a range of indices; `None` where it parts a run.
-    pub(crate) fn of(&self, indices: &Range<u32>) -> Option<Range<usize>> {
+    /// The pieces of a range of indices; `None` if it splits a run.
+    pub(crate) fn pieces_in(&self, indices: &Range<u32>) -> Option<Range<usize>> {
         if indices.start > indices.end || indices.end > self.index_count {
             return None;
         }
@@ -298,9 +299,9 @@ struct Builder<'a> {
     positions: &'a [[f32; 3]],
     lists: VertexLists<'a>,
     indices: &'a [u32],
-    /// Of each vertex its number in the piece that is being made, and which piece that is.
+    /// For each vertex its number in the current piece, and that piece.
     local: Vec<(u32, u8)>,
-    /// The vertices of the piece that is being made.
+    /// The vertices of the current piece.
     used: Vec<u32>,
     /// A run's triangles in the order of drawing.
     order: Vec<u32>,
@@ -346,7 +347,7 @@ impl<'a> Builder<'a> {
         let mut piece_start = 0;
         for at in 0..self.order.len() {
             let new = self.count_new(pieces.each.len(), self.order[at]);
-            // Where clusters end pieces end, also where one has been cut short by its vertices.
+            // Pieces end where clusters end, also after a piece that was cut short by its vertices.
             if at > piece_start && (at.is_multiple_of(PIECE_TRIANGLES) || self.used.len() + new > PIECE_VERTICES) {
                 self.finish(pieces, piece_start..at, cut.clone())?;
                 piece_start = at;
@@ -359,7 +360,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// How many vertices of a triangle the piece does not have yet, 0 to 3.
+    /// The number of a triangle's vertices that the piece does not have yet, 0 to 3.
     fn count_new(&self, piece: usize, triangle: u32) -> usize {
         self.corners(triangle).into_iter().filter(|&corner| self.local[corner as usize].0 != piece as u32).count()
     }
@@ -384,7 +385,7 @@ impl<'a> Builder<'a> {
             reserve(&mut pieces.positions[axis], padded, "a mesh's pieces")?;
             reserve(&mut pieces.normals[axis], padded, "a mesh's pieces")?;
             for k in 0..padded {
-                // The rest repeats the last vertex, so that nothing there is out of the ordinary.
+                // The rest repeats the last vertex, so that all numbers are ordinary.
                 let vertex = self.used[k.min(self.used.len() - 1)] as usize;
                 pieces.positions[axis].push(self.positions[vertex][axis]);
                 pieces.normals[axis].push(self.lists.normals.get(vertex).map_or(0.0, |normal| normal[axis]));
@@ -398,7 +399,7 @@ impl<'a> Builder<'a> {
                 to.extend(used.map(|vertex| list[vertex][axis]));
             }
         }
-        let extent = PieceExtent::of(self.used.iter().map(|&vertex| self.positions[vertex as usize]));
+        let extent = PieceExtent::around(self.used.iter().map(|&vertex| self.positions[vertex as usize]));
         let end = pieces.triangles.len() as u32;
         reserve(&mut pieces.each, 1, "a mesh's pieces")?;
         pieces.each.push(Piece {
@@ -418,8 +419,8 @@ impl<'a> Builder<'a> {
 }
 
 impl PieceExtent {
-    /// That of some points. Lengths are rounded up.
-    pub(crate) fn of(points: impl Iterator<Item = [f32; 3]> + Clone) -> Self {
+    /// The extent of some points. Lengths are rounded up.
+    pub(crate) fn around(points: impl Iterator<Item = [f32; 3]> + Clone) -> Self {
         let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         for point in points.clone() {
             for axis in 0..3 {
@@ -470,7 +471,7 @@ fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     (length > 0.0).then(|| v.map(|x| x / length))
 }
 
-/// Where a triangle is: equal corners, in whatever order, are in one place.
+/// The position of a triangle, the same for equal corners in any order.
 fn box_center(points: [[f32; 3]; 3]) -> [f32; 3] {
     [0, 1, 2].map(|axis| {
         let [a, b, c] = points.map(|point| point[axis]);
@@ -478,8 +479,8 @@ fn box_center(points: [[f32; 3]; 3]) -> [f32; 3] {
     })
 }
 
-/// Puts triangles that lie together next to each other: halves them across the longest side of their box until a piece
-/// is left, as a k-d tree does. What lies in one place keeps its order.
+/// Sorts triangles so that neighbours are adjacent: halves them across the longest side of their box until a piece is
+/// left, as a k-d tree does. Triangles at one position keep their order.
 fn cluster(triangles: &mut [([f32; 3], u32)]) {
     if triangles.len() <= PIECE_TRIANGLES {
         triangles.sort_unstable_by_key(|&(_, triangle)| triangle);

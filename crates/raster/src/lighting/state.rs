@@ -8,7 +8,7 @@ use halfway_lighting::record::Cull;
 use halfway_lighting::record::{LightRange, MaterialRecord, SurfaceLights, SurfaceRecord};
 use halfway_lighting::{Frequency, Reflectance};
 
-/// Where a draw's terms are shaded.
+/// The stage at which a draw's terms are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
     /// Nowhere: only the base.
@@ -19,7 +19,7 @@ pub(crate) enum Stage {
     Vertex,
     /// At the fragments.
     Fragment,
-    /// Some there, some here.
+    /// The diffuse and the specular term at different ones.
     Mixed,
 }
 
@@ -32,16 +32,16 @@ pub(crate) struct State {
     pub(crate) vertex: ShadedTerms,
     pub(crate) fragment: ShadedTerms,
     pub(crate) reflectance: Reflectance,
-    /// Whether triangles keep their own normal for where the interpolated one vanishes.
+    /// Whether triangles store their own normal, for pixels where the interpolated one vanishes.
     pub(crate) opposite_normals: bool,
     /// Whether backs are drawn.
     pub(crate) backs: bool,
-    /// Whether the vertices' colors count.
+    /// Whether vertex colors are used.
     pub(crate) colored: bool,
     /// Fronts wind clockwise.
     pub(crate) clockwise: bool,
     pub(crate) maps: Option<DrawMaps>,
-    /// How front and back take light.
+    /// The highlights of front and back.
     glosses: [Gloss; 2],
 }
 
@@ -50,7 +50,7 @@ impl State {
         let surrounded = draw.maps.is_some_and(|maps| maps.surrounded);
         let lit = |frequency: fn(Frequency) -> bool| {
             let terms = [draw.terms.diffuse, draw.terms.specular].map(frequency);
-            // The environment takes normals as lights would have them.
+            // The environment uses the same normals as lights.
             let SurfaceLights { both, diffuse, specular } = &surface.lights;
             let reaches = |range: &LightRange| surrounded || !(both.is_empty() && range.is_empty());
             ShadedTerms { diffuse: terms[0] && reaches(diffuse), specular: terms[1] && reaches(specular) }
@@ -59,7 +59,7 @@ impl State {
         let vertex = lit(|term| matches!(term, Frequency::Triangle | Frequency::Vertex));
         let fragment = lit(|term| term == Frequency::Fragment);
         let stage = match (vertex.is_empty(), fragment.is_empty()) {
-            // A flat triangle has the color of one point, whatever light there is.
+            // A flat triangle has the color of one point.
             (true, true) if flat && (draw.colored || draw.maps.is_some()) => Stage::Flat,
             (true, true) => Stage::Unlit,
             (false, true) if flat => Stage::Flat,
@@ -83,12 +83,12 @@ impl State {
         }
     }
 
-    /// The same of pieces of which no interpolated normal vanishes.
+    /// The same for pieces without vanishing interpolated normals.
     pub(crate) fn without_opposite_normals(self) -> Self {
         Self { opposite_normals: false, ..self }
     }
 
-    /// How a side takes light.
+    /// The highlights of a side.
     pub(crate) fn gloss(&self, back: bool) -> Gloss {
         self.glosses[usize::from(back)]
     }
@@ -113,19 +113,19 @@ impl State {
         gathered_here(simd, (pass.lights, pass.lists), &surface.lights, points, lobe, self.fragment)
     }
 
-    /// Whether the vertices' colors go a way of their own, which they do unless images have part in it.
+    /// Whether vertex colors are interpolated separately, which they are unless the draw has images.
     #[inline(always)]
     pub(crate) fn paints(&self) -> bool {
         self.colored && self.maps.is_none()
     }
 
-    /// Whether fragments take them: where no color has been shaded before them.
+    /// Whether fragments use them: if no earlier stage has shaded a color.
     #[inline(always)]
     pub(crate) fn shades_paint(&self) -> bool {
         self.paints() && matches!(self.stage, Stage::Unlit | Stage::Fragment | Stage::Mixed)
     }
 
-    /// Whether more than the material says at the fragments how light is given back.
+    /// Whether fragments need more than the material to reflect light.
     #[inline(always)]
     pub(crate) fn shades_apart(&self) -> bool {
         self.maps.is_some() || self.shades_paint()
@@ -136,7 +136,7 @@ impl State {
         self.stage == Stage::Unlit && !self.is_painted()
     }
 
-    /// Whether anything but the material says what ambient and diffuse light is given back.
+    /// Whether vertex colors or images change the ambient and diffuse reflectance.
     #[inline(always)]
     pub(crate) fn is_painted(&self) -> bool {
         self.colored || self.maps.is_some()

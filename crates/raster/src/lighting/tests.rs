@@ -149,8 +149,8 @@ fn on(width: VectorWidth, case: &Case) -> [[f32; MOST_LANES]; 3] {
     with_vectors!(level, simd => shaded(simd, case))
 }
 
-/// How far f32 may be: its rounding near the cosine's maximum is multiplied by the exponent (`equations::power` says
-/// how far), and that of a cone's cosine by the steepness of its fade.
+/// The error allowed for f32: rounding near the cosine's maximum is multiplied by the exponent (see
+/// `equations::power`), and that of a cone's cosine by the steepness of its fade.
 fn tolerance(case: &Case) -> f64 {
     2e-6 * f64::from(1.0 + case.exponent) + 1e-6 * f64::from(case.light.inner_scale)
 }

@@ -1,4 +1,4 @@
-//! Triangles that reach far beyond a tile, or behind the eye: few, and so one by one, in 64 bits.
+//! Triangles that reach far beyond a tile, or behind the eye. They are few, so they are clipped one by one, in 64 bits.
 
 use crate::pixels::cover::EdgeFunctions;
 use crate::triangles::planes::{CutCorner, DepthPlane, Gradient, Planes};
@@ -9,21 +9,21 @@ use crate::vertices::screen::Screen;
 use crate::vertices::transform::{CLIPPED, GRID, SCREEN_HIGH, SCREEN_LOW, TOO_NEAR, Vertices};
 use halfway_lighting::record::Cull;
 
-/// A corner on the screen.
+/// A corner on the picture.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Corner {
     screen: [f32; 2],
     grid: [i32; 2],
     inverse_w: f32,
-    /// By side, as in [`Vertices::lead`].
+    /// The leading numbers by side, as in [`Vertices::lead`].
     lead: [[f32; 4]; 2],
     second: [[f32; 4]; 2],
     paint: [f32; 4],
-    /// As a mean of the triangle's corners.
+    /// Its weights in the triangle's corners.
     weights: [f64; 3],
 }
 
-/// A triangle that is ready to be drawn.
+/// A triangle with its edges and planes.
 pub(crate) struct Ready {
     pub(crate) edges: EdgeFunctions,
     pub(crate) planes: Planes,
@@ -39,7 +39,7 @@ const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 /// A polygon gets a corner more from each plane that cuts it.
 const MOST_CORNERS: usize = 3 + 5;
 
-/// Hands out what is to be drawn of a triangle of a piece.
+/// Calls a function with each part of a clipped triangle.
 pub(crate) fn each_part(
     vertices: &Vertices,
     triangle: [u8; 3],
@@ -50,7 +50,9 @@ pub(crate) fn each_part(
     let numbers = triangle.map(usize::from);
     let code = numbers.iter().fold(0, |code, &v| code | vertices.codes[v]);
     if code & CLIPPED == 0 {
-        if let Some(ready) = set_up(&[0, 1, 2].map(|k| Corner::of(vertices, numbers[k], UNITS[k])), tile, covering) {
+        if let Some(ready) =
+            set_up(&[0, 1, 2].map(|k| Corner::at_vertex(vertices, numbers[k], UNITS[k])), tile, covering)
+        {
             draw(ready);
         }
         return;
@@ -70,7 +72,7 @@ pub(crate) fn each_part(
 }
 
 impl Corner {
-    fn of(vertices: &Vertices, v: usize, weights: [f64; 3]) -> Self {
+    fn at_vertex(vertices: &Vertices, v: usize, weights: [f64; 3]) -> Self {
         Self {
             weights,
             inverse_w: vertices.inverse_w[v],
@@ -82,10 +84,10 @@ impl Corner {
         }
     }
 
-    /// A mean of a triangle's corners.
+    /// A weighted mean of a triangle's corners.
     fn between(vertices: &Vertices, numbers: [usize; 3], weights: [f64; 3], screen: &Screen) -> Self {
         if let Some(only) = weights.iter().position(|&weight| weight >= 1.0) {
-            return Self::of(vertices, numbers[only], UNITS[only]);
+            return Self::at_vertex(vertices, numbers[only], UNITS[only]);
         }
         let mean = |list: &[f32]| -> f64 { (0..3).map(|k| weights[k] * f64::from(list[numbers[k]])).sum() };
         let [x, y, z] = [0, 1, 2].map(|axis| mean(&vertices.eye[axis]));
@@ -130,7 +132,7 @@ impl Polygon {
         Self { corners, count: 3 }
     }
 
-    /// Cuts off what is beyond the planes that some corner is beyond (Sutherland, Hodgman 1974).
+    /// Clips at the planes that some corner is beyond (Sutherland, Hodgman 1974).
     fn clip(&mut self, vertices: &Vertices, numbers: [usize; 3], screen: &Screen, code: i32) {
         let eye = numbers.map(|v| [0, 1, 2].map(|axis| f64::from(vertices.eye[axis][v])));
         let lens = screen.lens.cast::<f64>();
@@ -177,7 +179,7 @@ impl Polygon {
     }
 }
 
-/// Edges and planes of a triangle of any size; `None` where it does not show.
+/// Edges and planes of a triangle of any size; `None` if it is invisible.
 fn set_up(corners: &[Corner; 3], tile: [u32; 2], covering: &Covering) -> Option<Ready> {
     let first = tile.map(|place| i64::from(place) * (TILE as i64 * i64::from(GRID)) + i64::from(GRID / 2));
     let x = corners.each_ref().map(|corner| i64::from(corner.grid[0]) - first[0]);
@@ -219,7 +221,7 @@ fn edges(x: [i64; 3], y: [i64; 3], covering: &Covering) -> Option<EdgeFunctions>
         let at_first = bias - across * x[k] - down * y[k];
         for (value, [dx, dy]) in edges.at[k].iter_mut().zip(sample_offsets(covering.samples)) {
             let at = (at_first + across * i64::from(dx) + down * i64::from(dy)) >> 8;
-            // Beyond this no pixel of the tile changes the sign; and no sum leaves 32 bits.
+            // Beyond this no pixel of the tile changes the sign, and no sum overflows 32 bits.
             *value = at.clamp(-LARGEST_EDGE, LARGEST_EDGE) as i32;
         }
         edges.center[k] = (at_first >> 8).clamp(-LARGEST_EDGE, LARGEST_EDGE) as i32;

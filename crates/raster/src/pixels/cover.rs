@@ -1,4 +1,4 @@
-//! Which pixels a triangle covers, and what it leaves in them where nothing is nearer.
+//! Coverage of a triangle's pixels, the depth test, and the values stored for shading.
 
 use crate::lighting::state::{Stage, State};
 use crate::pixels::look::Look;
@@ -19,8 +19,8 @@ use halfway_lighting::Samples;
 /// Pixels of a tile.
 pub(crate) const PIXELS: usize = TILE * TILE;
 
-/// Numbers in a list of the tile's buffer: one a pixel, and a line of the cache more. Lists of 16 KiB would have the
-/// numbers of a pixel in the same few places of the cache.
+/// Numbers in a list of the tile's buffer: one a pixel, and one more cache line. With lists of 16 KiB the numbers of a
+/// pixel would compete for the same few cache lines.
 const LIST: usize = PIXELS + 16;
 
 /// Pixels of a tiny triangle's box, at most.
@@ -34,7 +34,7 @@ pub(crate) const TINY_PLACES: [[f32; TINY_PIXELS]; 2] = {
     }
     places
 };
-/// The way from the first to them in the tile's lists.
+/// Their offsets from the first in the tile's lists.
 pub(crate) const TINY_AT: [usize; TINY_PIXELS] = {
     let (mut at, mut k) = ([0; TINY_PIXELS], 0);
     while k < TINY_PIXELS {
@@ -44,7 +44,7 @@ pub(crate) const TINY_AT: [usize; TINY_PIXELS] = {
     at
 };
 
-/// Three edge functions over a tile: a pixel is covered where none is below 0.
+/// Three edge functions over a tile: a pixel is covered if none is below 0.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct EdgeFunctions {
     /// At the samples of the first pixel.
@@ -85,23 +85,23 @@ impl EdgeFunctions {
     }
 }
 
-/// In the place of the second sample's shader: the pixel shows in all samples what the first one does, or nothing.
+/// Stored as the second sample's shader: all samples of the pixel equal the first one.
 pub(crate) const EVEN: i32 = -1;
 
-/// The nearest that has been drawn of a tile. With four samples each list holds all pixels' first samples, then all
+/// The nearest surface at each sample of a tile. With four samples each list holds all pixels' first samples, then all
 /// second ones, and so on; the depths of a pixel's samples lie side by side.
 pub(crate) struct TileBuffer {
     /// The [nearness](halfway_lighting::Lens::nearness), 0 where nothing is.
     pub(crate) depth: Vec<[f32; LIST]>,
-    /// The number of its shader: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's number.
-    /// Where the second sample's is [`EVEN`], the first one's lists hold for all samples.
+    /// The number of its shader: 0 for nothing, else 2 + 2·state + 1 for backs; in the upper bits 2²⁸·the centroid's
+    /// number. If the second sample's is [`EVEN`], the first one's lists hold for all samples.
     pub(crate) shader: Vec<[i32; LIST]>,
-    /// With four samples, which triangle it is.
+    /// With four samples, the triangle.
     pub(crate) triangle: Vec<[i32; LIST]>,
     pub(crate) triangles: i32,
     /// The nearness where it is shaded, with four samples.
     pub(crate) nearness: Vec<[f32; LIST]>,
-    /// The leading numbers, in the end the color.
+    /// The leading numbers, replaced by the color once shaded.
     pub(crate) lead: Vec<[[f32; LIST]; 3]>,
     /// More of them.
     pub(crate) second: Vec<[[f32; LIST]; 3]>,
@@ -109,14 +109,14 @@ pub(crate) struct TileBuffer {
     pub(crate) paint: Vec<[[f32; LIST]; 3]>,
     /// The tile's triangles of draws with images or a mask.
     pub(crate) mapped_triangles: Vec<MappedTriangle>,
-    /// Which of them is nearest; empty where the pass has none.
+    /// The nearest of them; empty if the pass has none.
     pub(crate) mapped: Vec<[i32; LIST]>,
     pub(crate) face: Vec<[[f32; LIST]; 3]>,
-    /// With four samples, whether any triangle has left more than the leading numbers.
+    /// With four samples, whether any triangle has stored more than the leading numbers.
     pub(crate) keeps_more: bool,
 }
 
-/// Which of its numbers a triangle leaves behind.
+/// The numbers that a triangle stores for shading.
 #[derive(Clone, Copy, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "each is one list of the tile's buffer")]
 pub(crate) struct Kept<'a> {
@@ -124,16 +124,16 @@ pub(crate) struct Kept<'a> {
     pub(crate) second: bool,
     pub(crate) paint: bool,
     pub(crate) face: bool,
-    /// The number of the tile's mapped triangle, where it is one.
+    /// The number of the tile's mapped triangle, if it is one.
     pub(crate) mapped: Option<i32>,
-    /// The test of a mask, where there is one.
+    /// The test of the mask, if there is one.
     pub(crate) mask: Option<(&'a Look<'a>, &'a State, bool)>,
 }
 
 impl<'a> Kept<'a> {
     /// Inputs of shading.
     #[inline(always)]
-    pub(crate) fn of(look: &'a Look<'a>, state: &'a State, back: bool, mapped: Option<i32>) -> Self {
+    pub(crate) fn new(look: &'a Look<'a>, state: &'a State, back: bool, mapped: Option<i32>) -> Self {
         if let Some(maps) = &state.maps {
             return Self { mapped, mask: maps.mask.is_some().then_some((look, state, back)), ..Self::default() };
         }
@@ -166,7 +166,7 @@ impl TileBuffer {
         }
     }
 
-    /// Makes room for a tile.
+    /// Allocates the memory of a tile.
     #[expect(clippy::large_stack_arrays, reason = "48 KiB, once for each list")]
     pub(crate) fn prepare(&mut self, samples: Samples, painted: bool, mapped: bool) {
         let count = samples.count() as usize;
@@ -261,7 +261,7 @@ impl TileBuffer {
         }
     }
 
-    /// Draws a lane's triangle that is not tiny: in strips as wide as there are lanes, row by row.
+    /// Draws a lane's triangle that is not tiny: in strips of one vector, row by row.
     #[inline(always)]
     pub(crate) fn cover_small<S: Simd>(
         &mut self,
@@ -367,7 +367,7 @@ impl TileBuffer {
         }
     }
 
-    /// Where a mask leaves something of some pixels; everywhere where there is none.
+    /// The pixels that the mask keeps; all of them without a mask.
     #[inline(never)]
     pub(crate) fn left_by_mask<S: Simd>(
         &self,
@@ -415,7 +415,7 @@ impl TileBuffer {
     }
 }
 
-/// The lanes that an edge function leaves, from pixel (i, j) on.
+/// The lanes that the edge functions cover, from pixel (i, j) on.
 #[inline(always)]
 pub(crate) fn covered<S: Simd>(simd: S, edges: &EdgeFunctions, i: i32, j: i32) -> M<S> {
     let [left, right, ..] = edges.bounds;
@@ -436,7 +436,7 @@ pub(crate) fn clamped<S: Simd>(simd: S, nearness: F<S>, planes: &Planes) -> F<S>
     min::<S>(max::<S>(nearness, splat(simd, least)), splat(simd, most))
 }
 
-/// One of the numbers at places of the tile.
+/// One of the numbers at points of the tile.
 #[inline(always)]
 pub(crate) fn plane<S: Simd>(simd: S, slopes: &Slopes, k: usize, x: F<S>, y: F<S>) -> F<S> {
     let row = fma::<S>(splat(simd, slopes.dy[k]), y, splat(simd, slopes.base[k]));
@@ -449,7 +449,7 @@ fn vectors<S: Simd>(simd: S, slopes: &Slopes) -> (f32x4<S>, f32x4<S>, f32x4<S>) 
     (f32x4::from_slice(simd, base), f32x4::from_slice(simd, dx), f32x4::from_slice(simd, dy))
 }
 
-/// All four numbers at a place of the tile.
+/// All four numbers at a point of the tile.
 #[inline(always)]
 pub(crate) fn value<S: Simd>(simd: S, slopes: &Slopes, x: f32, y: f32) -> f32x4<S> {
     let (base, dx, dy) = vectors(simd, slopes);

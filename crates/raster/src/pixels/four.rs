@@ -1,7 +1,7 @@
-//! Coverage with four samples a pixel, and what a triangle leaves in them.
+//! Coverage with four samples a pixel, and the values stored for shading.
 //!
-//! Most pixels show one triangle in all four samples. What it leaves is kept once then, as the first sample's, and the
-//! second one's shader is [`EVEN`]; a triangle that takes some of the samples has them written out first.
+//! Most pixels show one triangle in all four samples. Its values are then stored once, for the first sample, and the
+//! second one's shader is [`EVEN`]; before a triangle covers only some of the samples, all four are written out.
 
 use crate::pixels::cover::{
     EVEN, EdgeFunctions, Kept, PIXELS, TINY_AT, TINY_PIXELS, TINY_PLACES, TileBuffer, clamped, plane, value,
@@ -15,7 +15,7 @@ use crate::triangles::samples::{CENTROIDS, OFFSETS};
 use crate::vertices::placed::TILE;
 use fearless_simd::{i32x4, mask32x4, prelude::*};
 
-/// Where the number of the centroid begins among a shader's bits.
+/// The lowest bit of the centroid's number in a shader.
 pub(crate) const CENTROID_SHIFT: i32 = 28;
 /// The bits of a shader below it.
 pub(crate) const SHADER_BITS: i32 = (1 << CENTROID_SHIFT) - 1;
@@ -25,8 +25,8 @@ const ALL: usize = 15;
 
 impl TileBuffer {
     /// Draws a triangle of few pixels with four samples each: those whose bits are set in `samples`, counted from
-    /// `first`. It is shaded once a pixel, at the center or, where that is not covered, at the centroid of the samples
-    /// that are.
+    /// `first`. It is shaded once a pixel, at the center or, if that is not covered, at the centroid of the covered
+    /// samples.
     #[inline(always)]
     pub(crate) fn cover_tiny_four<S: Simd>(
         &mut self,
@@ -72,7 +72,7 @@ impl TileBuffer {
         }
     }
 
-    /// Replaces a pixel's depths where these are nearer; returns which are.
+    /// Replaces a pixel's depths where the new ones are nearer; returns the mask of replaced samples.
     #[inline(always)]
     fn nearer_of_four<S: Simd>(&mut self, simd: S, pixel: usize, covered: mask32x4<S>, depth: f32x4<S>) -> usize {
         let at = &mut self.depth.as_flattened_mut()[4 * pixel..4 * pixel + 4];
@@ -85,7 +85,7 @@ impl TileBuffer {
         nearer.to_bitmask() as usize % 16
     }
 
-    /// Puts what a triangle leaves into some of a pixel's samples.
+    /// Stores a triangle's values in some of a pixel's samples.
     #[inline(always)]
     fn keep_samples(&mut self, pixel: usize, mask: usize, shader: i32, nearness: f32, lead: Option<[f32; 3]>) {
         let pixel = pixel % PIXELS;
@@ -119,7 +119,7 @@ impl TileBuffer {
         }
     }
 
-    /// Gives each sample of a pixel what the first one has for all.
+    /// Copies the first sample's values to the others of a pixel.
     #[inline(never)]
     fn write_out(&mut self, pixel: usize) {
         let Self { shader, triangle, nearness, lead, second, paint, mapped, face, keeps_more, .. } = self;
@@ -163,7 +163,7 @@ impl TileBuffer {
                 counting_i(simd) * splat_i(simd, edges.across[k]) + splat_i(simd, at)
             });
             for j in top..=bottom {
-                // Of those that none of the edges leaves out as a whole, some may have no sample that all three leave.
+                // A pixel that no edge excludes as a whole may still have no sample inside all three.
                 let [a, b, c] = each!(k in 3 => e[k] + more[k]);
                 let some = (a | b | c).simd_ge(splat_i(simd, 0));
                 let mut parts = some.to_bitmask() >> drawn << drawn;
@@ -187,7 +187,7 @@ impl TileBuffer {
         }
     }
 
-    /// Of the pixels from (i, j) on those with a bit in `whole`: all of their samples are covered.
+    /// Draws the pixels from (i, j) on with a bit in `whole`, whose samples are all covered.
     #[inline(always)]
     fn cover_whole<S: Simd>(
         &mut self,
@@ -199,7 +199,7 @@ impl TileBuffer {
     ) {
         let at = (j as usize * TILE + i as usize) & (PIXELS - 1);
         let samples = self.nearer_of_whole(simd, planes, ([i, j], at), whole);
-        // The pixels that are nearer in all samples, and in some.
+        // The pixels whose samples are all nearer, and those with some.
         let pairs = samples & samples >> 1;
         let all = bit_of_four(pairs & pairs >> 2);
         let pairs = samples | samples >> 1;
@@ -226,8 +226,8 @@ impl TileBuffer {
         }
     }
 
-    /// Replaces depths of pixels from (i, j) on, of those with a bit in `whole`, where these are nearer; returns of
-    /// which samples: four bits a pixel.
+    /// Replaces depths of the pixels from (i, j) on with a bit in `whole`, where the new ones are nearer; returns the
+    /// replaced samples, four bits a pixel.
     #[inline(always)]
     fn nearer_of_whole<S: Simd>(
         &mut self,
@@ -289,7 +289,7 @@ impl TileBuffer {
         }
     }
 
-    /// Puts what a triangle leaves, shaded at a place with the leading numbers `v`, into samples of a pixel.
+    /// Stores a triangle's values, with the leading numbers `v` at the point where it is shaded, in samples of a pixel.
     #[inline(always)]
     fn keep_pixel<S: Simd>(
         &mut self,
@@ -312,7 +312,7 @@ impl TileBuffer {
     }
 }
 
-/// Gives the other samples' lists what the first has of a pixel.
+/// Copies a pixel's value from the first sample's list to the others.
 fn repeat<T: Copy, const N: usize>(lists: &mut [[T; N]], pixel: usize) {
     if let [first, others @ ..] = lists {
         for other in others {
@@ -331,7 +331,7 @@ fn repeat_three<const N: usize>(lists: &mut [[[f32; N]; 3]], pixel: usize) {
     }
 }
 
-/// Where the samples of neighbouring pixels lie, one pixel's after the other's, from the center of the first on.
+/// The positions of the samples of neighbouring pixels, pixel by pixel, relative to the center of the first.
 const SAMPLES_OF_PIXELS: [[f32; MOST_LANES]; 2] = {
     let (mut places, mut lane) = ([[0.0; MOST_LANES]; 2], 0);
     while lane < MOST_LANES {
@@ -387,7 +387,7 @@ fn clamped_four<S: Simd>(simd: S, depth: f32x4<S>, range: [f32; 2]) -> f32x4<S> 
     depth.simd_lt(most).select(depth, most)
 }
 
-/// The number of the place where a pixel is shaded: 0 where its center is covered, else the samples that are.
+/// The number of the point where a pixel is shaded: 0 if its center is covered, else the bits of the covered samples.
 #[inline(always)]
 pub(crate) fn centroid(edges: &EdgeFunctions, i: i32, j: i32, mask: usize) -> usize {
     let [a, b, c] = each!(k in 3 => edges.center[k] + edges.across[k] * i + edges.down[k] * j);

@@ -1,4 +1,4 @@
-//! Triangles behind those that a tile shows already, with one sample a pixel: they need not be lit, nor drawn.
+//! Occlusion culling within a tile, with one sample a pixel: triangles behind drawn ones are neither lit nor drawn.
 
 use crate::pixels::cover::{TINY_AT, TINY_PIXELS, TileBuffer};
 use crate::simd::lanes::{Simd, counting_i, lanes, load, splat, splat_i};
@@ -82,7 +82,7 @@ mod tests {
                         }
                         let holds = [0, 1].iter().all(|&axis| (first[axis]..=last[axis]).contains(&hole[axis]));
                         assert_eq!(hides(&tile, first, last, NEAR, width), !holds, "{hole:?} in {first:?} to {last:?}");
-                        // Of equal depths the first drawn stays; what is nearer by any amount shows.
+                        // At equal depth the first drawn stays; anything nearer shows.
                         assert!(!hides(&tile, first, last, NEAR.next_up(), width));
                         assert!(hides(&tile, first, last, 1.0, width));
                     }

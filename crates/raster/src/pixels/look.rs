@@ -1,10 +1,10 @@
-//! Inputs of shading from the frame.
+//! The context of shading: the pass and the tile.
 
 use crate::input::pass::Pass;
 use crate::lighting::state::State;
 use crate::vertices::screen::Screen;
 
-/// Inputs of shading a tile from the frame.
+/// The pass and the tile that are shaded.
 #[derive(Clone, Copy)]
 pub(crate) struct Look<'a> {
     pub(crate) pass: &'a Pass<'a>,

@@ -29,36 +29,36 @@ pub(crate) struct MappedPixel<'a> {
     w: f32,
 }
 
-/// An image of normals as a pixel sees it.
+/// The filtered normal map at a pixel.
 #[derive(Clone, Copy)]
 pub(crate) struct SeenNormals {
-    /// Their mean, or the normal of their mean slopes, as texels have it.
+    /// The mean, or the normal of the mean slopes, encoded as a texel.
     texel: [f32; 3],
     amount: f32,
     roughness: Roughness,
 }
 
-/// The inputs of highlights from them beside their direction, the amount included.
+/// The roughness of the filtered normals, scaled by the amount.
 #[derive(Clone, Copy)]
 enum Roughness {
     None,
-    /// How long their mean is.
+    /// The length of the mean.
     Length(f32),
-    /// How far their slopes lie apart.
+    /// The covariance of the slopes.
     Covariance([f32; 3]),
 }
 
 /// Highlights of a pixel.
 pub(crate) struct PixelGloss {
-    /// Of round ones, or of the mirrored environment.
+    /// The exponent of round highlights, or of the mirrored environment.
     pub(crate) exponent: f32,
     /// Their factor.
     factor: f32,
-    /// The inverse of how wide they are along their axes, where they are not round.
+    /// The inverse of their widths along the axes, if they are anisotropic.
     widths: Option<[f32; 3]>,
 }
 
-/// Where a pixel lies on an image, and by how much that changes to the next, along x and along y.
+/// The texture coordinates of a pixel, and their change to the next pixel along x and along y.
 struct OnImage {
     uv: [f32; 2],
     footprint: [[f32; 2]; 2],
@@ -82,7 +82,7 @@ impl MappedPixel<'_> {
         self.triangle.nearness.map(|step| self.pass.lens.inverse_w_step(step))
     }
 
-    /// u/w, v/w and 1/w are linear over the picture: by the rule of quotients ∂u = w·(∂(u/w) − u·∂(1/w)).
+    /// u/w, v/w and 1/w are linear over the picture: by the quotient rule ∂u = w·(∂(u/w) − u·∂(1/w)).
     fn on_image(&self, call: &MapCall) -> OnImage {
         let data = &self.pass.maps[call.map as usize];
         let Slopes { dx, dy, .. } = &self.triangle.groups[UVS];
@@ -102,7 +102,7 @@ impl MappedPixel<'_> {
     fn texel(&self, call: &MapCall) -> [f32; 4] {
         let OnImage { uv, footprint } = self.on_image(call);
         let data = &self.pass.maps[call.map as usize];
-        // Sums of the largest texels may be no numbers.
+        // Sums of the largest texels may be NaN.
         lookup::filtered(&data.pyramid, &call.sampling, uv, footprint).map(|t| if t > 0.0 { t.min(1.0) } else { 0.0 })
     }
 
@@ -141,7 +141,7 @@ impl MappedPixel<'_> {
         of_vertices * if has_own { self.factor_of_one(MapKind::Opacity) } else { self.factor(MapKind::Color)[3] }
     }
 
-    /// The image of normals as it sees it, where light is shaded at the fragments.
+    /// The filtered normal map, if light is shaded at the fragments.
     pub(crate) fn normals(&self, state: &State) -> Option<SeenNormals> {
         let call = self.maps.calls[MapKind::Normal as usize].as_ref()?;
         if !matches!(state.stage, Stage::Fragment | Stage::Mixed) {
@@ -152,7 +152,7 @@ impl MappedPixel<'_> {
         let turned = if state.reflectance == Reflectance::Phong { 2.0 * data.amount } else { data.amount };
         if call.far_normals == FarNormals::Lean {
             let OnImage { uv, footprint } = self.on_image(call);
-            let seen = SlopeSpread::seen(&data.pyramid, &call.sampling, uv, footprint);
+            let seen = SlopeSpread::filtered(&data.pyramid, &call.sampling, uv, footprint);
             let roughness = Roughness::Covariance(seen.covariance(turned));
             return Some(SeenNormals { texel: seen.texel(), amount: data.amount, roughness });
         }
@@ -238,7 +238,7 @@ impl<S: Simd> MappedPixels<'_, S> {
         Some(MappedPixel { triangle, maps, pass, place, w: 1.0 / pass.lens.inverse_w(self.nearness[lane]) })
     }
 
-    /// Their opacities, the material's among them; 0 where there is no triangle.
+    /// Their opacities, including the material's; 0 without a triangle.
     #[inline(never)]
     pub(crate) fn opacities(&self, simd: S, pass: &Pass, state: &State, back: bool) -> F<S> {
         let mut opacities = splat(simd, 0.0);
@@ -251,7 +251,7 @@ impl<S: Simd> MappedPixels<'_, S> {
         opacities
     }
 
-    /// Whether the mask leaves them, where there is one.
+    /// Whether the mask keeps them; always without a mask.
     pub(crate) fn are_there(&self, simd: S, pass: &Pass, state: &State, back: bool) -> M<S> {
         let cutoff = state.maps.and_then(|maps| maps.mask).unwrap_or(f32::NEG_INFINITY);
         self.opacities(simd, pass, state, back).simd_ge(splat(simd, cutoff))
@@ -335,7 +335,7 @@ impl<S: Simd> MappedPixels<'_, S> {
             let sum = state.fragment_terms(simd, look.pass, &points, axial);
             return Irradiance { specular: each!(c in 3 => sum.specular[c] * factors), ..sum };
         }
-        // One exponent after the other.
+        // The lights are summed once for each exponent.
         let mut sum = Irradiance::none(simd);
         let mut left = (!self.of.simd_lt(splat_i(simd, 0))).to_bitmask();
         while left != 0 {
@@ -350,7 +350,7 @@ impl<S: Simd> MappedPixels<'_, S> {
     }
 }
 
-/// The ambient, diffuse and specular part of a pixel; `lit` is what lights bring to it there.
+/// The ambient, diffuse and specular part of a pixel; `lit` is the light at the fragment.
 fn parts(pixel: &MappedPixel, state: &State, side: &MaterialRecord, lit: PartsOf) -> PartsOf {
     // Across a triangle seen edge-on slopes leave the range of its corners.
     let interpolated = |group| pixel.three(group).map(|x| x.max(0.0));

@@ -1,4 +1,4 @@
-//! Fragments that are laid over what is there, in the order of drawing.
+//! Blends fragments over the colors behind them, in drawing order.
 
 use crate::lighting::state::Stage;
 use crate::pixels::cover::{EdgeFunctions, TileBuffer, clamped, covered, plane};
@@ -13,7 +13,7 @@ use crate::vertices::placed::TILE;
 use fearless_simd::prelude::*;
 use halfway_lighting::Samples;
 
-/// Of a vector of pixels: which samples the triangle shows in, and where it is shaded.
+/// For a vector of pixels: the visible samples of a triangle, and the points where it is shaded.
 struct ShownSamples<S: Simd> {
     masks: [M<S>; 4],
     any: M<S>,
@@ -94,7 +94,7 @@ impl TileBuffer {
         ShownSamples { masks, any: masks[0] | masks[1] | masks[2] | masks[3], place }
     }
 
-    /// opacity·I + (1 − opacity)·what is there.
+    /// opacity·I + (1 − opacity)·B, where B is the color behind.
     #[inline(always)]
     fn lay_over<S: Simd>(
         &mut self,
@@ -149,7 +149,7 @@ impl TileBuffer {
     }
 }
 
-/// The three numbers at places of the tile.
+/// The three numbers at points of the tile.
 #[inline(always)]
 fn three<S: Simd>(simd: S, slopes: &Slopes, x: F<S>, y: F<S>) -> V3<S> {
     each!(k in 3 => plane(simd, slopes, k + 1, x, y))

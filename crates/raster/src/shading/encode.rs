@@ -1,4 +1,4 @@
-//! From linear intensities to what a pixel holds.
+//! Encodes linear intensities as the values of pixels.
 
 use crate::input::pass::PixelFormat;
 use crate::simd::lanes::{F, I, Simd, V3, each, fma, max, min, saturate, splat, splat_i, splat3};

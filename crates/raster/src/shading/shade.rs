@@ -1,4 +1,4 @@
-//! Shading of what is nearest in a tile, a vector of pixels at a time.
+//! Shades the nearest surfaces of a tile, a vector of pixels at a time.
 
 use crate::input::pass::Pass;
 use crate::lighting::state::{Stage, State};
@@ -31,7 +31,7 @@ pub(crate) struct Fragments<'a, S: Simd> {
     pub(crate) second: V3<S>,
     /// The vertices' color, over w.
     pub(crate) paint: V3<S>,
-    /// Of draws with images or a mask the numbers of their triangles, −1 for others, and all of the tile's.
+    /// The numbers of mapped triangles, −1 for others, and all mapped triangles of the tile.
     pub(crate) mapped: I<S>,
     pub(crate) triangles: &'a [MappedTriangle],
     pub(crate) face: V3<S>,
@@ -52,8 +52,8 @@ impl<S: Simd> Fragments<'_, S> {
         )
     }
 
-    /// Their colors where only the material says how they give light back; most of the code of drawing, and fastest
-    /// where it is inlined.
+    /// Their colors if only the material decides how they reflect light; most of the drawing code, and fastest when
+    /// inlined.
     #[inline(always)]
     pub(crate) fn color(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         let side = state.side(look.pass, back);
@@ -72,7 +72,7 @@ impl<S: Simd> Fragments<'_, S> {
         }
     }
 
-    /// The colors of what vertices' colors or an image have part in.
+    /// The colors of draws with vertex colors or images.
     #[inline(always)]
     fn painted(&self, simd: S, look: &Look, state: &State, back: bool) -> V3<S> {
         let side = state.side(look.pass, back);
@@ -111,12 +111,12 @@ impl<S: Simd> Fragments<'_, S> {
         let way = look.screen.way(simd, look.tile, self.place);
         let n = self.fragment_normal(simd, w, state, back);
         let p = [way[0] * w, way[1] * w, -look.screen.depth_at(simd, self.nearness, w)];
-        // The way through the pixel, not p: it has a direction however far p is.
+        // The ray through the pixel, not p: it has a direction however far p is.
         let v = to_viewer(simd, [way[0], way[1], splat(simd, -1.0)], n, look.pass.local_viewer);
         Points::new(simd, p, n, v)
     }
 
-    /// The interpolated normal on the side that is seen. Where it vanishes the triangle's own takes its place.
+    /// The interpolated normal on the visible side, replaced by the triangle's own if it vanishes.
     #[inline(always)]
     fn fragment_normal(&self, simd: S, w: F<S>, state: &State, back: bool) -> V3<S> {
         let mut n = safe_normalize(simd, self.lead);
@@ -129,7 +129,7 @@ impl<S: Simd> Fragments<'_, S> {
     }
 }
 
-/// A shader that gives all its pixels one color, and what that is encoded to.
+/// A shader with one color for all its pixels, and its encoded value.
 #[derive(Clone, Copy)]
 pub(crate) struct Even<S: Simd> {
     shader: i32,
@@ -145,7 +145,7 @@ impl<S: Simd> Even<S> {
 }
 
 impl TileBuffer {
-    /// Puts colors, as the target keeps them, in the place of the leading numbers.
+    /// Replaces the leading numbers by colors in the target's range.
     #[inline(always)]
     pub(crate) fn shade<S: Simd>(&mut self, simd: S, look: &Look, rows: usize) {
         let clear = cleared(simd, look.pass.clear, look.pass.pixels);
@@ -173,8 +173,7 @@ impl TileBuffer {
         )
     }
 
-    /// The color of pixels with one sample each. Tiles that are not `PAINTED` have nothing in the way of what is drawn
-    /// most.
+    /// The color of pixels with one sample each. Tiles that are not `PAINTED` take the fast path of plain draws.
     #[inline(always)]
     fn shade_one<S: Simd, const PAINTED: bool>(&self, simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
         let shaders = load_i(simd, &self.shader[0], at);
@@ -199,7 +198,7 @@ impl TileBuffer {
         color
     }
 
-    /// The same as bytes. `even` are shaders that have been met; what is all of one of them is not computed again.
+    /// The same as bytes. `even` caches shaders of one color, so that vectors of one of them are not computed again.
     #[inline(always)]
     pub(crate) fn bytes_of_one<S: Simd, const PAINTED: bool>(
         &self,
@@ -229,7 +228,7 @@ impl TileBuffer {
         bytes
     }
 
-    /// Which of the pixels from `at` on show the same in all samples.
+    /// The pixels from `at` on whose samples are all equal.
     #[inline(always)]
     fn even<S: Simd>(&self, simd: S, at: usize) -> M<S> {
         load_i(simd, &self.shader[1], at).simd_eq(splat_i(simd, EVEN))
@@ -340,7 +339,7 @@ impl TileBuffer {
         match samples {
             Samples::One => load3(simd, &self.lead[0], at),
             Samples::Four => {
-                // Quarters first: the sum of four largest numbers would be infinite.
+                // Quarters first: the sum of the four largest numbers would overflow.
                 let [a, b, c, d] = each!(sample in 4 => {
                     scale::<S>(load3(simd, &self.lead[sample], at), splat(simd, 0.25))
                 });

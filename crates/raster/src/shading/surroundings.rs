@@ -1,4 +1,4 @@
-//! The environment: what it adds at a pixel, and what is seen of it where nothing is drawn.
+//! The environment: its light at a pixel, and the sky.
 
 use crate::input::attributes::COLOR;
 use crate::lighting::state::{Stage, State};
@@ -12,7 +12,7 @@ use halfway_lighting::equations::vector::normalize_or_zero;
 use halfway_lighting::equations::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
 use halfway_texture::environment::SurroundingsData;
 
-/// Through a pixel of a tile: x and y where w is 1.
+/// The ray through a pixel of a tile: x and y where w is 1.
 fn way(screen: &Screen, tile: [u32; 2], place: [f32; 2]) -> [f32; 2] {
     each!(axis in 2 => {
         let pixel = place[axis] + tile[axis] as f32 * TILE as f32;
@@ -48,8 +48,8 @@ impl MappedPixel<'_> {
     }
 }
 
-/// The color where nothing is drawn, from the pixel `at` of the tile on: the sky, where there is one, as the target
-/// keeps it, and else the clear color, which is given.
+/// The color where nothing is drawn, from the pixel `at` of the tile on: the sky in the target's range if there is one,
+/// else the clear color `clear`.
 #[inline(always)]
 pub(crate) fn behind<S: Simd>(simd: S, look: &Look, at: usize, clear: V3<S>) -> V3<S> {
     match look.pass.surroundings {

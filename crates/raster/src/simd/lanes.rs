@@ -1,14 +1,14 @@
 //! Vectors of numbers, one a lane, in operations that give the same bits in every width.
 //!
-//! Allowed are +, −, ×, ÷, √ and the fused multiply-add, which a CPU without one emulates exactly; estimates of
-//! reciprocals and roots are not, nor what the makers of CPUs define differently (minimum and maximum of NaN, casts out
-//! of range).
+//! Allowed are +, −, ×, ÷, √ and the fused multiply-add, which is emulated exactly on CPUs without it. Not allowed are
+//! estimates of reciprocals and roots, and operations that CPUs define differently (minimum and maximum of NaN, casts
+//! out of range).
 
 use fearless_simd::prelude::*;
 pub(crate) use fearless_simd::{Simd, f32x4};
 
-/// An array of the same expression for 0 … of its numbers. A closure would be a function of its own, that is not
-/// compiled for the CPU's vectors.
+/// An array of the same expression for 0, 1, 2 … A closure would be a function of its own, which is not compiled for
+/// the CPU's vectors.
 macro_rules! each {
     ($k:ident in 2 => $e:expr) => {
         [{ let $k = 0_usize; $e }, { let $k = 1_usize; $e }]
@@ -82,8 +82,8 @@ pub(crate) fn store_i<S: Simd>(x: I<S>, to: &mut [i32], at: usize) {
     x.store_slice(&mut to[at..at + lanes::<S>()]);
 }
 
-/// Replaces the lanes of a mask. As integers: of floats LLVM makes a masked store, which many CPUs do slowly (AMD's in
-/// more than ten steps), and which what is loaded next from there has to wait for.
+/// Replaces the lanes of a mask. As integers: for floats LLVM emits a masked store, which is slow on many CPUs (more
+/// than ten micro-operations on AMD's) and delays the next load from there.
 #[inline(always)]
 pub(crate) fn replace<S: Simd>(simd: S, mask: M<S>, x: F<S>, to: &mut [f32], at: usize) {
     let before: I<S> = load(simd, to, at).bitcast();
@@ -138,14 +138,14 @@ pub(crate) fn fma<S: Simd>(a: F<S>, b: F<S>, c: F<S>) -> F<S> {
     a.mul_add_precise(b, c)
 }
 
-/// `a` where it is greater, else `b`: also where either is no number, or both are zeros.
+/// `a` if it is greater, else `b`, also if either is NaN or both are zeros.
 #[inline(always)]
 pub(crate) fn max<S: Simd>(a: F<S>, b: F<S>) -> F<S> {
     // x86's instruction is defined so.
     if cfg!(any(target_arch = "x86", target_arch = "x86_64")) { SimdBase::max(a, b) } else { a.simd_gt(b).select(a, b) }
 }
 
-/// `a` where it is less, else `b`: also where either is no number, or both are zeros.
+/// `a` if it is less, else `b`, also if either is NaN or both are zeros.
 #[inline(always)]
 pub(crate) fn min<S: Simd>(a: F<S>, b: F<S>) -> F<S> {
     if cfg!(any(target_arch = "x86", target_arch = "x86_64")) { SimdBase::min(a, b) } else { a.simd_lt(b).select(a, b) }
@@ -163,7 +163,7 @@ pub(crate) fn min_one(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// Into 0 to 1; what is no number becomes 0.
+/// Clamps to 0 to 1; NaN becomes 0.
 #[inline(always)]
 pub(crate) fn saturate<S: Simd>(simd: S, x: F<S>) -> F<S> {
     min::<S>(max::<S>(x, splat(simd, 0.0)), splat(simd, 1.0))
@@ -213,7 +213,7 @@ pub(crate) fn add_scaled<S: Simd>(sum: V3<S>, a: V3<S>, s: F<S>) -> V3<S> {
 /// Squares of lengths below this count as 0.
 pub(crate) const SMALLEST_SQUARE: f32 = f32::MIN_POSITIVE;
 
-/// The unit vector; what is shorter than 10⁻¹⁹ stays short.
+/// The unit vector; vectors shorter than 10⁻¹⁹ stay short.
 #[inline(always)]
 pub(crate) fn safe_normalize<S: Simd>(simd: S, a: V3<S>) -> V3<S> {
     let square = max::<S>(dot::<S>(a, a), splat(simd, SMALLEST_SQUARE));

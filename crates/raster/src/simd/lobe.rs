@@ -1,5 +1,5 @@
-//! Highlights of points on vectors, by what a surface makes of them: round ones of one exponent for all points, or
-//! those of two axes, another at each point. Twins of `halfway_lighting::equations`, with their names.
+//! Highlights on vectors of points: round ones with one exponent for all points, or anisotropic ones with two axes at
+//! each point. Twins of `halfway_lighting::equations`, with their names.
 
 use crate::simd::lanes::{F, Simd, V3, add, dot, each, fma, max, splat, splat3};
 use crate::simd::power::{Exponent, Power};
@@ -18,7 +18,7 @@ pub(crate) trait PointLobe<S: Simd>: Copy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gloss {
     pub(crate) reflectance: Reflectance,
-    /// Of the material; Blinn–Phong takes it halved.
+    /// The material's exponent, halved for Blinn–Phong.
     pub(crate) exponent: Exponent,
 }
 
@@ -45,14 +45,14 @@ impl<S: Simd> PointLobe<S> for Gloss {
     }
 }
 
-/// Highlights that are not round, another at each point: see `axial_exponent` in the equations.
+/// Anisotropic highlights, different at each point: see `axial_exponent` in the equations.
 #[derive(Clone, Copy)]
 pub(crate) struct AxialGloss<S: Simd> {
     /// All else that a side says of its highlights.
     round: Gloss,
     axes: [V3<S>; 2],
     widths: V3<S>,
-    /// The exponent where the halfway direction is that of the normal.
+    /// The exponent if the halfway direction is that of the normal.
     pub(crate) otherwise: F<S>,
 }
 
@@ -104,7 +104,7 @@ fn axial_exponent<S: Simd>(simd: S, axial: &AxialGloss<S>, h: V3<S>) -> F<S> {
 #[inline(always)]
 fn specular_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, alpha: Power<S>) -> F<S> {
     let twice = dot::<S>(n, l) * splat(simd, 2.0);
-    alpha.of(simd, fma::<S>(twice, dot::<S>(n, v), -dot::<S>(l, v)))
+    alpha.raise(simd, fma::<S>(twice, dot::<S>(n, v), -dot::<S>(l, v)))
 }
 
 /// `max(n·h, 0)^β` with h = (l + v)/‖l + v‖, as ((n·(l + v))²/‖l + v‖²)^(β/2), without the gate n·l > 0; `half_beta` is
@@ -116,7 +116,7 @@ fn specular_blinn_phong<S: Simd>(simd: S, n: V3<S>, l: V3<S>, v: V3<S>, half_bet
     let squared = dot::<S>(sum, sum);
     let along = max::<S>(dot::<S>(n, sum), splat(simd, 0.0));
     let cos_squared = along * along / max::<S>(squared, splat(simd, SMALLEST));
-    let s = half_beta.of(simd, cos_squared);
+    let s = half_beta.raise(simd, cos_squared);
     squared.simd_gt(splat(simd, SMALLEST)).select(s, splat(simd, 0.0))
 }
 
@@ -146,10 +146,10 @@ mod tests {
         }
     }
 
-    /// Of two axes, of such as are turned, of none, of widths that would give exponents below 0, and toward the normal
+    /// Two axes, rotated axes, no axes, widths that would give exponents below 0, and a halfway vector along the normal
     /// itself.
     #[test]
-    fn highlights_of_two_axes_are_those_of_the_equations_on_every_width() {
+    fn anisotropic_highlights_match_the_equations() {
         let (straight, turned) = ([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[0.8, 0.6, 0.0], [0.6, -0.8, 0.0]]);
         let unit = |d: [f32; 3]| vector::normalize(d.map(f64::from)).expect("a direction").map(|x| x as f32);
         let v = unit([0.1, -0.2, 1.0]);

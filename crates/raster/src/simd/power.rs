@@ -29,7 +29,7 @@ const ARTANH: [f32; 5] = {
     [(TWICE / 9.0) as f32, (TWICE / 7.0) as f32, (TWICE / 5.0) as f32, (TWICE / 3.0) as f32, TWICE as f32]
 };
 
-/// 2^y for y from −126 to 127 (what is below is taken as −126), with a relative error below 2·10⁻⁷.
+/// 2^y for y from −126 to 127 (lower values count as −126), with a relative error below 2·10⁻⁷.
 #[inline(always)]
 pub(crate) fn exp2<S: Simd>(simd: S, y: F<S>) -> F<S> {
     let y = min::<S>(max::<S>(y, splat(simd, -126.0)), splat(simd, 127.0));
@@ -47,7 +47,7 @@ pub(crate) fn exp2<S: Simd>(simd: S, y: F<S>) -> F<S> {
 /// An exponent of cosines, 0 or more, the same for all lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Exponent {
-    /// 2 to this power: this number of squarings does.
+    /// 2 to this power, computed by this number of squarings.
     Squarings(u32),
     /// Any other.
     Any(f32),
@@ -83,7 +83,7 @@ pub(crate) enum Power<S: Simd> {
 impl<S: Simd> Power<S> {
     /// `max(x, 0)` raised to it.
     #[inline(always)]
-    pub(crate) fn of(self, simd: S, x: F<S>) -> F<S> {
+    pub(crate) fn raise(self, simd: S, x: F<S>) -> F<S> {
         match self {
             Self::One(exponent) => power(simd, x, exponent),
             Self::Each(exponents) => powers(simd, x, exponents),

@@ -1,11 +1,11 @@
-//! How wide vectors are: found out when the program runs, or forced.
+//! The SIMD level: detected at run time, or forced.
 
 use crate::error::RasterError;
 use fearless_simd::Level;
 use std::fmt;
 
-/// Evaluates an expression with the vectors of a level: like [`fearless_simd::dispatch`], but not for every level there
-/// is.
+/// Evaluates an expression with the vectors of a level: like [`fearless_simd::dispatch`], but only for the levels used
+/// here.
 macro_rules! with_vectors {
     ($level:expr, $simd:ident => $draw:expr) => {
         match $level {
@@ -27,7 +27,7 @@ macro_rules! with_vectors {
 }
 pub(crate) use with_vectors;
 
-/// The environment variable that forces a width by its name.
+/// The environment variable that forces a SIMD level by its name.
 pub const WIDTH_VARIABLE: &str = "HALFWAY_SIMD";
 
 /// The vectors that a CPU has. Pictures are the same to the bit on all of them.
@@ -47,12 +47,12 @@ pub enum VectorWidth {
 impl VectorWidth {
     const ALL: [Self; 4] = [Self::Avx512, Self::Avx2, Self::Neon, Self::Plain];
 
-    /// Those of this CPU, the widest first. There is always one.
+    /// The levels of this CPU, the widest first. There is always one.
     pub fn available() -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().filter(|width| width.level().is_some())
     }
 
-    /// The widest of this CPU, or what [`WIDTH_VARIABLE`] asks for.
+    /// The widest of this CPU, or the one that [`WIDTH_VARIABLE`] names.
     ///
     /// # Errors
     /// The variable names a width that is unknown or that this CPU does not have.
@@ -63,7 +63,7 @@ impl VectorWidth {
         }
     }
 
-    /// The one of this name: `avx512`, `avx2`, `neon` or `plain`, in any case.
+    /// The level of this name: `avx512`, `avx2`, `neon` or `plain`, in any case.
     ///
     /// # Errors
     /// The name is unknown, or this CPU does not have it.
@@ -74,7 +74,7 @@ impl VectorWidth {
         })
     }
 
-    /// How many numbers a vector holds.
+    /// The number of lanes of a vector.
     pub fn lanes(self) -> usize {
         match self {
             Self::Avx512 => 16,

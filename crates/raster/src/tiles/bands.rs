@@ -1,4 +1,4 @@
-//! The picture's memory, a row of tiles at a time, as the threads borrow it.
+//! The picture's memory, cut into rows of tiles that threads borrow.
 
 use crate::error::{LARGEST_SIDE, RasterError};
 use crate::input::pass::{Output, Pass, PixelFormat};
@@ -23,7 +23,7 @@ pub(crate) struct PixelData<B, F> {
 /// A thread's own memory of one tile.
 pub(crate) type Own = PixelData<Vec<u8>, Vec<f32>>;
 
-/// Where the pixels of a tile go.
+/// The memory of a tile's pixels.
 pub(crate) struct Rows<'a> {
     pub(crate) values: PixelData<&'a mut [u8], &'a mut [f32]>,
     /// Pixels from the first of a row to the first of the next.
@@ -31,7 +31,7 @@ pub(crate) struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// Where a pixel's values begin, given its number in the tile.
+    /// The index of a pixel's first value, given its number in the tile.
     #[inline(always)]
     pub(crate) fn place(&self, pixel: usize) -> usize {
         CHANNELS * (pixel / TILE * self.stride + pixel % TILE)
@@ -62,8 +62,8 @@ impl<'a> Bands<'a> {
         Self { each: std::array::from_fn(&mut next), width, clear, columns: width.div_ceil(TILE) }
     }
 
-    /// Has a tile's pixels put where they belong; or, while another thread is at its row of tiles or where the tile is
-    /// cut by the picture's edge, into memory of the thread's own and from there.
+    /// Calls `put` with the memory of a tile's pixels; or, if another thread holds its row of tiles or the picture's
+    /// edge cuts the tile, with memory of the thread's own, which is then copied.
     pub(crate) fn fill(&self, [column, row]: [u32; 2], own: &mut Own, put: impl FnOnce(&mut Rows)) {
         let left = column as usize * TILE;
         let across = TILE.min(self.width - left);
@@ -87,7 +87,7 @@ impl<'a> Bands<'a> {
         }
     }
 
-    /// Says whether a tile is clear from now on; returns whether it was.
+    /// Records whether a tile is clear; returns whether it was.
     pub(crate) fn set_clear(&self, [column, row]: [u32; 2], is_clear: bool) -> bool {
         self.clear.tiles[row as usize * self.columns + column as usize].swap(is_clear, Ordering::Relaxed)
     }
@@ -102,15 +102,15 @@ fn from<T>(list: &mut [T], start: usize) -> &mut [T] {
     list.get_mut(start..).unwrap_or_default()
 }
 
-/// Makes room for a tile.
+/// Allocates the memory of a tile.
 pub(crate) fn make_room(own: &mut Own, pixels: PixelFormat) {
     let (bytes, floats) = if pixels.is_bytes() { (PIXELS, 0) } else { (0, PIXELS) };
     own.bytes.resize(CHANNELS * bytes, 0);
     own.floats.resize(CHANNELS * floats, 0.0);
 }
 
-/// Which tiles of a picture show nothing but its clear color. Whoever draws one picture after another into the same
-/// memory keeps it with that memory, and has such tiles left as they are while they stay so.
+/// Which tiles of a picture show only its clear color. Keep it with the memory that pictures are drawn into: tiles that
+/// stay clear are then not written again.
 #[derive(Debug, Default)]
 pub struct ClearTiles {
     /// Of this width and height, format, and color's bits.
@@ -119,7 +119,7 @@ pub struct ClearTiles {
 }
 
 impl ClearTiles {
-    /// Forgets what is not of such pictures.
+    /// Resets it if the size, format or clear color has changed.
     pub(crate) fn prepare(&mut self, pass: &Pass, count: usize) -> Result<(), RasterError> {
         let of = Some((pass.size, pass.pixels, pass.clear.map(f32::to_bits)));
         if self.of != of {

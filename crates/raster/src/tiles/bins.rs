@@ -1,4 +1,4 @@
-//! Which pieces show, and in which tiles of the picture.
+//! Bins pieces: finds the visible ones and the tiles that they may cover.
 
 use crate::error::RasterError;
 use crate::input::pass::Pass;
@@ -32,7 +32,7 @@ pub(crate) struct Bins {
     pub(crate) first_blended: u32,
     /// Columns and rows of tiles.
     pub(crate) tiles: [u32; 2],
-    /// Where each tile's jobs begin among `listed`.
+    /// The index of each tile's first job in `listed`.
     starts: Vec<u32>,
     listed: Vec<u32>,
     /// The jobs in many tiles.
@@ -41,7 +41,7 @@ pub(crate) struct Bins {
     parts: Vec<BinsPart>,
 }
 
-/// Pieces fewer than this are sorted by the calling thread: to wake another takes longer.
+/// Fewer pieces than this are binned by the calling thread, since waking another takes longer.
 const WORTH_PARTING: u64 = 4_000;
 
 /// The pieces of a draw's instances, one instance after the other.
@@ -49,26 +49,27 @@ const WORTH_PARTING: u64 = 4_000;
 struct Span {
     draw: u32,
     pieces: Range<usize>,
-    /// How many pieces are in the spans before it.
+    /// The number of pieces in the spans before it.
     start: u64,
 }
 
-/// The share of them that one thread finds.
+/// The jobs that one thread finds.
 #[derive(Debug, Default)]
 pub(crate) struct BinsPart {
-    /// Which pieces it looks at, counted over all spans.
+    /// The range of pieces that it processes, counted over all spans.
     of: Range<u64>,
     states: Vec<State>,
     jobs: Vec<Job>,
-    /// How many jobs do not blend; they come first.
+    /// The number of opaque jobs, which come first.
     opaque: u32,
-    /// Of each surface the last draw that showed it, and its states there: where normals may vanish, and where not.
+    /// For each surface the last draw that used it, and its two states there: for pieces whose normals may vanish, and
+    /// for others.
     known: Vec<(u32, [u32; 2])>,
     refused: Option<RasterError>,
 }
 
 impl Bins {
-    /// Sorts a pass's pieces into tiles. `each` has a function called with each part, by `threads` threads.
+    /// Bins a pass's pieces into tiles. `each` calls a function with each part, on `threads` threads.
     pub(crate) fn fill<E>(&mut self, pass: &Pass, threads: usize, each: E) -> Result<(), RasterError>
     where
         E: FnOnce(&mut [BinsPart], &(dyn Fn(&mut BinsPart) + Sync)),
@@ -93,7 +94,7 @@ impl Bins {
         self.list()
     }
 
-    /// The spans of all draws, what blends after the rest, and how many pieces they have.
+    /// Finds the spans of all draws, blended ones last, and returns their number of pieces.
     fn find_spans(&mut self, pass: &Pass) -> Result<u64, RasterError> {
         self.spans.clear();
         reserve(&mut self.spans, pass.draws.len())?;
@@ -101,7 +102,7 @@ impl Bins {
         for blend in [false, true] {
             for (number, draw) in pass.draws.iter().enumerate().filter(|(_, draw)| draw.blend == blend) {
                 let Range { start, end } = draw.indices;
-                let pieces = pass.meshes[draw.mesh as usize].of(&draw.indices);
+                let pieces = pass.meshes[draw.mesh as usize].pieces_in(&draw.indices);
                 let pieces = pieces.ok_or(RasterError::Cut { draw: number, start, end })?;
                 let count = pieces.len() as u64 * draw.instances.len() as u64;
                 self.spans.push(Span { draw: number as u32, pieces, start: total });
@@ -111,7 +112,7 @@ impl Bins {
         Ok(total)
     }
 
-    /// Puts the parts one after the other.
+    /// Concatenates the parts.
     fn join(&mut self, count: usize) -> Result<(), RasterError> {
         self.states.clear();
         self.jobs.clear();
@@ -217,7 +218,7 @@ impl BinsPart {
         Ok(())
     }
 
-    /// Adds what may be seen of some pieces of an instance.
+    /// Adds the pieces of an instance that may be visible.
     fn add(&mut self, pass: &Pass, number: u32, index: u32, pieces: Range<usize>) -> Result<(), RasterError> {
         let draw = &pass.draws[number as usize];
         let mesh = pass.meshes[draw.mesh as usize];
@@ -243,8 +244,8 @@ impl BinsPart {
         Ok(())
     }
 
-    /// The numbers of a surface's states in a draw: of pieces of which interpolated normals may vanish, if the draw
-    /// asks for that, and of others.
+    /// The numbers of a surface's states in a draw: for pieces whose interpolated normals may vanish, if the draw
+    /// handles that, and for others.
     fn states(&mut self, pass: &Pass, number: u32, surface: u32) -> Result<[u32; 2], RasterError> {
         let (of, states) = self.known[surface as usize];
         if of == number {
@@ -257,7 +258,7 @@ impl BinsPart {
         Ok([vanishing, other])
     }
 
-    /// The number of a state: that which it has already, if it is one of the last two.
+    /// The number of a state, which is reused if it is one of the last two.
     fn number(&mut self, state: State) -> Result<u32, RasterError> {
         let last = self.states.len().saturating_sub(2);
         if let Some(place) = self.states[last..].iter().position(|other| *other == state) {
@@ -328,9 +329,9 @@ mod tests {
         }
     }
 
-    /// Whatever parts there are, jobs come in the order of drawing, with the states that they have in one part.
+    /// With any number of parts, jobs are in drawing order and have the same states as with one part.
     #[test]
-    fn parts_find_what_one_finds() {
+    fn parallel_binning_matches_one_thread() {
         let strip: Vec<[f32; 3]> = (0..102).map(|k| [0.01 * k as f32, (k % 2) as f32, 0.0]).collect();
         let indices: Vec<u32> = (0..100).flat_map(|k| [k, k + 1, k + 2]).collect();
         let mesh = Pieces::new(&strip, VertexLists::default(), &indices, &[], TriangleOrder::Clustered).unwrap();
@@ -363,7 +364,7 @@ mod tests {
         let pass = plain([1280, 720], (&instances, &surfaces), &meshes, &draws);
         let filled = |threads| {
             let mut bins = Bins::default();
-            // The second time in memory that the first has left behind.
+            // The second time in reused memory.
             for _ in 0..2 {
                 bins.fill(&pass, threads, |parts, work| {
                     assert_eq!(parts.len(), threads);
@@ -388,8 +389,8 @@ mod tests {
         }
     }
 
-    /// Of a mesh with some triangles whose normals may cancel only the pieces that have one keep the triangles' own;
-    /// and draws that follow each other go on with the same two states.
+    /// In a mesh with some triangles whose normals may cancel, only the pieces with such a triangle keep the triangles'
+    /// own normals; and consecutive draws share the same two states.
     #[test]
     fn pieces_whose_normals_do_not_vanish_keep_no_others() {
         let corners = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]];

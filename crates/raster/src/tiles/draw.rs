@@ -1,4 +1,4 @@
-//! A tile from its pieces to its pixels.
+//! Draws a tile, from its pieces to its pixels.
 
 use crate::input::pass::{DrawCall, Pass, PixelFormat};
 use crate::input::pieces::{PIECE_TRIANGLES, Piece, Pieces};
@@ -27,15 +27,15 @@ use halfway_lighting::record::InstanceRecord;
 pub(crate) struct Worker {
     vertices: Vertices,
     corners: Corners,
-    /// The triangles of a piece, as many together as there are lanes.
+    /// The triangles of a piece, in batches of one vector.
     batches: Box<[Batch; PIECE_TRIANGLES / LEAST_LANES]>,
     faces: PieceFaces,
     nearest: TileBuffer,
-    /// Room for the tile's pixels.
+    /// Memory for the tile's pixels.
     own: Own,
 }
 
-/// A frame as tiles see it.
+/// The shared data of a frame's tiles.
 #[derive(Clone, Copy)]
 pub(crate) struct Scene<'a> {
     pub(crate) pass: &'a Pass<'a>,
@@ -43,7 +43,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) screen: &'a Screen,
 }
 
-/// A job with what it names.
+/// A job with its draw, instance and piece.
 #[derive(Clone, Copy)]
 struct Work<'a> {
     job: Job,
@@ -52,7 +52,7 @@ struct Work<'a> {
     instance: &'a InstanceRecord,
     state: &'a State,
     covering: Covering,
-    /// Something else has been drawn before it in the tile, with one sample a pixel; it may hide this.
+    /// Something was drawn before it in the tile, with one sample a pixel, which may hide it.
     behind: bool,
     blend: bool,
 }
@@ -97,7 +97,7 @@ impl Worker {
                 self.shade(simd, &look, last[1]);
                 shaded = true;
             }
-            let work = Work::of(scene, number, last, (first, blend));
+            let work = Work::new(scene, number, last, (first, blend));
             look.painted |= work.state.shades_apart();
             let shows = simd.vectorize(
                 #[inline(always)]
@@ -147,13 +147,13 @@ impl Worker {
         );
     }
 
-    /// Draws a piece's triangles. What none of them shows is not lit.
+    /// Draws a piece's triangles. Vertices without a visible triangle are not lit.
     #[inline(always)]
     fn triangles<S: Simd>(&mut self, simd: S, look: &Look, work: &Work) {
         let range = work.piece.triangles.start as usize..work.piece.triangles.end as usize;
         let triangles = &work.mesh.triangles[range];
         let (shown, [fronts, backs]) = self.find_shown(simd, work, triangles);
-        // Triangles and vertices are lit only if something of them shows.
+        // Triangles and vertices are lit only if they may be visible.
         let lit_before = matches!(work.state.stage, Stage::Flat | Stage::Vertex);
         let shown = if lit_before && work.behind { self.not_hidden::<S>(triangles, shown) } else { shown };
         if shown == 0 {
@@ -165,7 +165,7 @@ impl Worker {
         }
         self.vertices.light(simd, place, work.instance, state, groups_of::<S>(triangles, shown));
         let one = work.covering.is_plain && work.covering.samples == Samples::One;
-        // In their order, which decides where surfaces blend or lie in one depth.
+        // In their order, which matters for blended and coincident surfaces.
         let mut left = shown;
         while left != 0 {
             let number = left.trailing_zeros() as usize % PIECE_TRIANGLES;
@@ -182,7 +182,7 @@ impl Worker {
         }
     }
 
-    /// Finds which of a piece's triangles may show anything, and which of them their fronts and backs.
+    /// Finds the triangles of a piece that may be visible, and those that may show their fronts and backs.
     #[inline(always)]
     fn find_shown<S: Simd>(&mut self, simd: S, work: &Work, triangles: &[[u8; 3]]) -> (u64, [u64; 2]) {
         self.corners.fill(triangles, &self.vertices);
@@ -191,14 +191,14 @@ impl Worker {
             batch.fill(simd, &self.corners, at, (triangles.len() - at).min(lanes::<S>()), &work.covering);
             let here = batch.tiny | batch.small | batch.others;
             shown |= here << at;
-            // Which side the others show is not known yet.
+            // The visible side of the others is not known yet.
             fronts |= (here & !batch.backs | batch.others) << at;
             backs |= (here & batch.backs | batch.others) << at;
         }
         (shown, [fronts, backs])
     }
 
-    /// Those of some triangles that are not behind what has been drawn, as far as the tiny ones tell.
+    /// Removes tiny triangles that are behind drawn surfaces.
     #[inline(always)]
     fn not_hidden<S: Simd>(&self, triangles: &[[u8; 3]], mut shown: u64) -> u64 {
         for (at, batch) in (0..triangles.len()).step_by(lanes::<S>()).zip(&*self.batches) {
@@ -216,7 +216,7 @@ impl Worker {
         shown
     }
 
-    /// A triangle that is large, or has to be clipped.
+    /// Draws a triangle that is large, or has to be clipped.
     fn other<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], number: usize) {
         let (faces, nearest, vertices) = (&self.faces, &mut self.nearest, &self.vertices);
         let place = (look.tile, &work.covering);
@@ -243,8 +243,8 @@ impl Worker {
         });
     }
 
-    /// A triangle of few pixels, of which it covers some, or a larger one with one sample a pixel; it leaves nothing
-    /// but its depth and the leading numbers.
+    /// Draws a tiny triangle that covers a pixel, or a larger one with one sample a pixel, that stores only its depth
+    /// and the leading numbers.
     #[inline(always)]
     fn plain<S: Simd>(&mut self, simd: S, work: &Work, triangle: [u8; 3], number: usize, tiny: bool) {
         let (batch, lane) = (&self.batches[number / lanes::<S>()], number % lanes::<S>());
@@ -267,7 +267,7 @@ impl Worker {
         cover_tiny(simd, to, place, &slopes, range(corners), shader, keeps_lead);
     }
 
-    /// One that is not so plain.
+    /// Draws one that stores more.
     fn small<S: Simd>(&mut self, simd: S, look: &Look, work: &Work, triangle: [u8; 3], number: usize) {
         simd.vectorize(
             #[inline(always)]
@@ -305,7 +305,7 @@ impl Worker {
         );
     }
 
-    /// Makes room for a tile.
+    /// Allocates the memory of a tile.
     pub(crate) fn prepare(&mut self, pass: &Pass) {
         let any = |has: fn(&DrawCall) -> bool| pass.draws.iter().any(has);
         self.nearest.prepare(pass.samples, any(|draw| draw.colored), any(|draw| draw.maps.is_some()));
@@ -313,7 +313,7 @@ impl Worker {
     }
 }
 
-/// Makes a tile's pixels of its colors.
+/// Encodes a tile's colors as pixels.
 #[inline(always)]
 fn encode<S: Simd>(simd: S, nearest: &TileBuffer, pass: &Pass, last_row: i32, rows: &mut Rows) {
     for at in (0..(last_row as usize + 1) * TILE).step_by(lanes::<S>()) {
@@ -321,7 +321,7 @@ fn encode<S: Simd>(simd: S, nearest: &TileBuffer, pass: &Pass, last_row: i32, ro
     }
 }
 
-/// Makes them of what is nearest, where each pixel has one sample and nothing is blended over it.
+/// Shades and encodes the nearest surfaces, with one sample a pixel and without blending.
 #[inline(always)]
 fn shade_and_encode<S: Simd>(simd: S, nearest: &TileBuffer, look: &Look, last_row: i32, rows: &mut Rows) {
     let pass = look.pass;
@@ -403,7 +403,7 @@ fn cover_tiny<S: Simd>(
     }
 }
 
-/// The groups of vertices, each as large as a vector has lanes, that some triangles have corners in.
+/// The groups of vertices, each of one vector, that contain corners of the triangles.
 #[inline(always)]
 fn groups_of<S: Simd>(triangles: &[[u8; 3]], shown: u64) -> u32 {
     let (mut left, mut groups) = (shown, 0);
@@ -433,7 +433,7 @@ fn draw<S: Simd>(
     work: &Work,
 ) {
     let mapped = (nearest.mapped_triangles.len() as i32).checked_sub(1);
-    let (shader, kept) = (shader_of(work.job.state, back), Kept::of(look, work.state, back, mapped));
+    let (shader, kept) = (shader_of(work.job.state, back), Kept::new(look, work.state, back, mapped));
     match look.pass.samples {
         _ if work.blend => nearest.blend(simd, edges, planes, shader, look),
         Samples::One => nearest.cover_strips(simd, edges, planes, shader, kept),
@@ -442,7 +442,7 @@ fn draw<S: Simd>(
 }
 
 impl<'a> Work<'a> {
-    fn of(scene: &Scene<'a>, number: u32, last: [i32; 2], (first, blend): (Option<Job>, bool)) -> Self {
+    fn new(scene: &Scene<'a>, number: u32, last: [i32; 2], (first, blend): (Option<Job>, bool)) -> Self {
         let Scene { pass, bins, .. } = *scene;
         let job = bins.jobs[number as usize];
         let draw = &pass.draws[job.draw as usize];

@@ -13,11 +13,11 @@ use crate::vertices::transform::{transformed, turned};
 use fearless_simd::prelude::*;
 use halfway_lighting::record::InstanceRecord;
 
-/// Of each triangle of a piece 0 and its own normal, or 0 and its color where the draw is flat, front and back. In
-/// place of 0 stands the vertices' mean opacity where they have colors.
+/// For each triangle of a piece 0 and its own normal, or 0 and its color if the draw is flat, front and back. The 0 is
+/// replaced by the vertices' mean opacity if they have colors.
 pub(crate) struct PieceFaces {
     pub(crate) each: [[[f32; 4]; PIECE_TRIANGLES]; 2],
-    /// Of flat draws with images or a mask.
+    /// The parts of flat draws with images or a mask.
     pub(crate) parts: FlatParts,
 }
 
@@ -26,8 +26,8 @@ impl PieceFaces {
         Self { each: [[[0.0; 4]; PIECE_TRIANGLES]; 2], parts: FlatParts::new() }
     }
 
-    /// The own normals of triangles, or their colors where the draw is flat. `fronts` and `backs` are those that may
-    /// show that side.
+    /// Fills the own normals of triangles, or their colors if the draw is flat. `fronts` and `backs` are the triangles
+    /// that may show that side.
     #[inline(always)]
     pub(crate) fn fill<S: Simd>(
         &mut self,
@@ -126,11 +126,11 @@ fn mean_color<S: Simd>(simd: S, these: &LaneTriangles, (mesh, piece): (&Pieces, 
     each!(channel in 4 => load(simd, &sums[channel], 0) * splat(simd, 1.0 / 3.0))
 }
 
-/// Unit normals of triangles of any size; 0 where they have none.
+/// Unit normals of triangles of any size; 0 if a triangle has no area.
 #[inline(always)]
 fn face_normal<S: Simd>(simd: S, [a, b, c]: [V3<S>; 3]) -> V3<S> {
     let (e, f) = (sub::<S>(b, a), sub::<S>(c, a));
-    // Brought to a size of 1, so that the product neither overflows nor vanishes.
+    // Scaled to a size of 1, so that the product neither overflows nor vanishes.
     let mut longest = splat(simd, f32::MIN_POSITIVE);
     for axis in 0..3 {
         longest = max::<S>(max::<S>(e[axis].abs(), f[axis].abs()), longest);

@@ -1,5 +1,5 @@
-//! Triangles of draws with images, or of which a mask cuts something out. What they have is kept once a triangle and
-//! not once a pixel, so that other draws do not pay for it.
+//! Triangles of draws with images or a mask. Their data is stored once a triangle and not once a pixel, so that other
+//! draws do not pay for it.
 
 use crate::input::attributes::{FRAME, GROUPS, GROUPS_BUT_SOLID, OF_VERTICES, PARTS, PLACE};
 use crate::input::pieces::PIECE_TRIANGLES;
@@ -11,7 +11,7 @@ use crate::vertices::lane_triangles::{LaneTriangles, spread};
 use crate::vertices::transform::Vertices;
 use halfway_lighting::record::MaterialRecord;
 
-/// I by what images multiply: the ambient, the diffuse and the specular part.
+/// The parts of I that images multiply separately: ambient, diffuse and specular.
 pub(crate) type PartsOf = [[f32; 3]; 3];
 
 /// Inputs of a triangle's pixels.
@@ -19,22 +19,21 @@ pub(crate) type PartsOf = [[f32; 3]; 3];
 pub(crate) struct MappedTriangle {
     /// How the nearness grows from pixel to pixel.
     pub(crate) nearness: [f32; 2],
-    /// Their base is at this pixel of the tile, the first that may be covered: far from it, what differs by little
-    /// between steep slopes would be lost to rounding.
+    /// Their base is the first pixel of the tile that may be covered: farther away, small differences between steep
+    /// slopes would be lost to rounding.
     pub(crate) groups: [Slopes; GROUPS],
     pub(crate) first: [f32; 2],
     /// Its own normal.
     pub(crate) face: [f32; 3],
-    /// Of flat ones the parts, and the opacity of the vertices.
+    /// For flat triangles the parts, and the opacity of the vertices.
     pub(crate) parts: PartsOf,
     pub(crate) alpha: f32,
-    /// And their color.
+    /// The color of the vertices.
     pub(crate) color: [f32; 3],
 }
 
 impl MappedTriangle {
-    /// One that lies near the tile, from the slopes of four numbers by their values at the corners, from the first
-    /// pixel on.
+    /// A triangle near the tile, from the slopes of four numbers by their values at the corners.
     #[inline(always)]
     pub(crate) fn small(
         vertices: &Vertices,
@@ -45,12 +44,12 @@ impl MappedTriangle {
         let mut groups = [Slopes::default(); GROUPS];
         for number in groups_of(state) {
             let side = back && is_of_side(state, number);
-            groups[number] = slopes(numbers.map(|vertex| vertices.mapped.of(side, number, vertex)));
+            groups[number] = slopes(numbers.map(|vertex| vertices.mapped.at(side, number, vertex)));
         }
         Self::with(&groups, first, planes)
     }
 
-    /// Any other, by the corners that it was cut to.
+    /// Any other triangle, by its clipped corners.
     pub(crate) fn large(
         vertices: &Vertices,
         (triangle, back): ([u8; 3], bool),
@@ -67,7 +66,7 @@ impl MappedTriangle {
                 for (corner, weight) in triangle.into_iter().zip(weights) {
                     let vertex = usize::from(corner);
                     let w = 1.0 / f64::from(vertices.inverse_w[vertex]);
-                    let over_w = vertices.mapped.of(side, number, vertex);
+                    let over_w = vertices.mapped.at(side, number, vertex);
                     for (sum, number) in sum.iter_mut().zip(over_w) {
                         *sum += weight * w * f64::from(*number);
                     }
@@ -86,7 +85,7 @@ impl MappedTriangle {
     }
 }
 
-/// The groups that a state's triangles take.
+/// The groups that a state's triangles need.
 fn groups_of(state: &State) -> impl Iterator<Item = usize> + use<> {
     let (surrounded, solid) =
         state.maps.as_ref().map_or((false, false), |maps| (maps.surrounded, maps.solid.is_some()));
@@ -158,7 +157,7 @@ pub(crate) fn parts_of<S: Simd>(simd: S, terms: &Irradiance<S>, side: &MaterialR
     ]
 }
 
-/// Which groups a state's sides have of their own.
+/// Whether a group differs between a state's sides.
 fn is_of_side(state: &State, group: usize) -> bool {
     match state.stage {
         Stage::Vertex => (PARTS..PARTS + 3).contains(&group),

@@ -14,7 +14,7 @@ use halfway_lighting::record::InstanceRecord;
 use halfway_texture::MapKind;
 
 impl Vertices {
-    /// Fills what a mapped draw takes of some groups of a piece's vertices, which are placed.
+    /// Fills the mapped numbers of some groups of a piece's transformed vertices.
     #[inline(never)]
     pub(crate) fn fill_mapped<S: Simd>(
         &mut self,

@@ -29,7 +29,7 @@ pub(crate) struct Planes {
     pub(crate) lead: Slopes,
     /// Nothing, and three numbers over w.
     pub(crate) second: Slopes,
-    /// Of colored draws the opacity and the color, over w.
+    /// The opacity and the color over w, in colored draws.
     pub(crate) paint: Slopes,
     /// The triangle's own normal.
     pub(crate) face: [f32; 3],
@@ -39,8 +39,9 @@ pub(crate) struct Planes {
     pub(crate) depth: DepthPlane,
 }
 
-/// The nearness as `base + dx·(i − first) + dy·(j − first)` of the tile's pixels (i, j). Every triangle of few pixels has it
-/// from the first that may be covered, whatever is drawn: so surfaces at one place have one depth, to the bit.
+/// The nearness as `base + dx·(i − first) + dy·(j − first)` of the tile's pixels (i, j). Every triangle of few pixels
+/// starts at the first pixel that may be covered, in all draws, so that coincident surfaces have equal depths, to the
+/// bit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DepthPlane {
     pub(crate) base: f32,
@@ -56,10 +57,10 @@ impl DepthPlane {
     }
 }
 
-/// A corner of what a triangle was cut to: 1/w, and the weights of the triangle's own.
+/// A corner of a clipped triangle: 1/w, and its weights in the triangle's corners.
 pub(crate) type CutCorner = (f32, [f64; 3]);
 
-/// The corners' places in a form that makes slopes, in f64: for triangles that reach far beyond the tile.
+/// The corners' positions in a form that gives slopes, in f64: for triangles that reach far beyond the tile.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gradient {
     x: [f64; 3],
@@ -69,8 +70,8 @@ pub(crate) struct Gradient {
 }
 
 /// A triangle flatter than this, in pixels, takes its slopes from the corners on the grid, and so does one that the
-/// rounding to the grid has turned over. A covered pixel lies at most one step of the grid outside of the exact
-/// triangle; so what is interpolated leaves the range of its corners by half of it at most.
+/// rounding to the grid has flipped. A covered pixel lies at most one step of the grid outside of the exact triangle,
+/// so interpolated values leave the range of the corners by at most half of it.
 pub(crate) const FLATTEST: f32 = 1.0 / 128.0;
 
 impl Gradient {
@@ -90,7 +91,7 @@ impl Gradient {
         }
     }
 
-    /// The same, from this pixel of the tile on.
+    /// The same, with this pixel of the tile as the base.
     pub(crate) fn beginning_at(self, pixel: [i32; 2]) -> Self {
         let [i, j] = pixel.map(f64::from);
         Self { x: self.x.map(|x| x - i), y: self.y.map(|y| y - j), ..self }
@@ -119,8 +120,8 @@ impl Slopes {
 }
 
 impl Planes {
-    /// Takes over what a triangle has of its own: its opacity and color where the draw is flat, else its normal where
-    /// it may be needed.
+    /// Sets the triangle's own values: its opacity and color if the draw is flat, else its normal if that may be
+    /// needed.
     #[inline(always)]
     pub(crate) fn set_face(&mut self, [first, x, y, z]: &[f32; 4], state: &State, lens: &Lens) {
         if state.stage == Stage::Flat {
@@ -132,7 +133,7 @@ impl Planes {
                 self.paint = Slopes { base: opacity(lens.inverse_w(base[0])), dx: step(dx[0]), dy: step(dy[0]) };
             }
             self.lead.base[1..].copy_from_slice(&[*x, *y, *z]);
-            // Corners that clipping has made hold a normal, which flat shading leaves to whatever was drawn before.
+            // Clipped corners hold a normal, which flat shading does not fill.
             self.lead.dx[1..].fill(0.0);
             self.lead.dy[1..].fill(0.0);
         } else if state.opposite_normals {

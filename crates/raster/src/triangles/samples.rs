@@ -1,8 +1,8 @@
-//! Where a pixel's samples lie.
+//! The positions of a pixel's samples.
 
 use halfway_lighting::Samples;
 
-/// Where the four samples lie, in sixteenths of a pixel from its center.
+/// The positions of the four samples, in sixteenths of a pixel from its center.
 const PLACES: [[i32; 2]; 4] = [[-2, -6], [6, -2], [-6, 2], [2, 6]];
 
 /// The same in steps of the grid.
@@ -11,7 +11,7 @@ pub(crate) const GRID_PLACES: [[i32; 2]; 4] = [[-32, -96], [96, -32], [-96, 32],
 /// The same in pixels, by axis.
 pub(crate) const OFFSETS: [[f32; 4]; 2] = [[-0.125, 0.375, -0.375, 0.125], [-0.375, -0.125, 0.125, 0.375]];
 
-/// The places of samples in steps of the grid; of one sample the center.
+/// The positions of samples in steps of the grid; the center for one sample.
 pub(crate) fn sample_offsets(samples: Samples) -> [[i32; 2]; 4] {
     match samples {
         Samples::One => [[0; 2]; 4],
@@ -19,7 +19,7 @@ pub(crate) fn sample_offsets(samples: Samples) -> [[i32; 2]; 4] {
     }
 }
 
-/// By the samples that are covered, from 0 (the center itself is) to 15: their mean, in pixels from the center.
+/// The mean of the covered samples, in pixels from the center, by their bits from 0 (the center itself is covered) to 15.
 pub(crate) const CENTROIDS: [[f32; 2]; 16] = centroids();
 
 const fn centroids() -> [[f32; 2]; 16] {

@@ -1,5 +1,5 @@
-//! Triangles of a piece, as many at once as there are lanes: which pixels of the tile they may cover, their edges, and
-//! how numbers change over them.
+//! Sets up triangles of a piece, one vector at a time: the pixels of the tile that they may cover, their edges, and the
+//! slopes of interpolated numbers.
 
 use crate::input::pieces::PIECE_TRIANGLES;
 use crate::simd::lanes::{
@@ -17,7 +17,7 @@ pub(crate) const TINY: usize = 5;
 
 type Lanes = [i32; MOST_LANES];
 
-/// The corners of a piece's triangles, brought together.
+/// The corners of a piece's triangles, gathered from the vertices.
 pub(crate) struct Corners {
     /// By corner and triangle, as in [`Vertices::places`].
     places: [[[i32; 2]; PIECE_TRIANGLES]; 3],
@@ -56,34 +56,33 @@ impl Corners {
     }
 }
 
-/// Up to as many triangles as there are lanes, relative to a tile.
+/// A vector of triangles, relative to a tile.
 #[derive(Default)]
 pub(crate) struct Batch {
     /// The lanes of triangles that cover some of a few pixels.
     pub(crate) tiny: u64,
     /// The lanes of larger ones that may cover pixels.
     pub(crate) small: u64,
-    /// Those of them that are no larger, where none are told apart.
+    /// The tiny triangles among them, if they are not separated.
     pub(crate) few: u64,
     /// The lanes of triangles that must be clipped, or are large.
     pub(crate) others: u64,
-    /// The lanes that show their backs, as far as that is known.
+    /// The lanes that are known to show their backs.
     pub(crate) backs: u64,
-    /// Edge functions at the center of the first pixel that may be covered, less 1 where an edge does not own its
-    /// pixels.
+    /// Edge functions at the center of the first pixel that may be covered, less 1 if an edge does not own its pixels.
     pub(crate) edge: [Lanes; 3],
-    /// By how much they grow from pixel to pixel, over 256.
+    /// Their growth from pixel to pixel, divided by 256.
     pub(crate) across: [Lanes; 3],
     pub(crate) down: [Lanes; 3],
     /// First and last column, first and last row of pixels that may be covered.
     pub(crate) bounds: [Lanes; 4],
-    /// Of tiny triangles the pixels whose center is covered: bit [`TINY`]·row + column from the first that may be.
+    /// The covered pixels of tiny triangles: bit [`TINY`]·row + column, counted from the first that may be covered.
     pub(crate) pixels: Lanes,
     /// With four samples the pixels whose samples are covered, by sample.
     pub(crate) samples: [[i32; 4]; MOST_LANES],
-    /// How numbers change over triangles: see [`Batch::slopes`].
+    /// The weights of slopes: see [`Batch::slopes`].
     weights: [[f32; MOST_LANES]; 6],
-    /// The last two of them, where numbers begin at the first pixel that may be covered.
+    /// The last two of them, with the first pixel that may be covered as the base.
     near: [[f32; MOST_LANES]; 2],
 }
 
@@ -96,13 +95,12 @@ pub(crate) struct Covering {
     pub(crate) samples: Samples,
     /// The last column and row of the tile that are in the picture.
     pub(crate) last: [i32; 2],
-    /// Whether triangles leave nothing but their depth and the leading numbers; those of few pixels are told from
-    /// others then.
+    /// Whether triangles store only their depth and the leading numbers; tiny ones are then separated.
     pub(crate) is_plain: bool,
 }
 
 impl Covering {
-    /// How far samples lie from a pixel's center, in steps of the grid.
+    /// The distance of samples from a pixel's center, in steps of the grid.
     pub(crate) fn reach(&self) -> i32 {
         match self.samples {
             Samples::One => 0,
@@ -111,7 +109,7 @@ impl Covering {
     }
 }
 
-/// Set-up of a batch's triangles, and some values that follow from it.
+/// The set-up of a batch's triangles, with derived values.
 struct Outlines<S: Simd> {
     /// Corners from the center of the tile's first pixel, on the grid.
     x: [I<S>; 3],
@@ -119,9 +117,9 @@ struct Outlines<S: Simd> {
     first: [I<S>; 2],
     last: [I<S>; 2],
     clockwise: M<S>,
-    /// Those that may cover pixels, and are neither clipped nor large.
+    /// The triangles that may cover pixels, and are neither clipped nor large.
     meet: M<S>,
-    /// Those of few pixels, and they where they are told from others.
+    /// The tiny triangles, and those of them that are separated.
     few: M<S>,
     tiny: M<S>,
 }
@@ -166,7 +164,7 @@ impl Batch {
         }
     }
 
-    /// Tells which triangles show their fronts and may cover pixels.
+    /// Finds the triangles that show their fronts and may cover pixels.
     #[inline(always)]
     fn find<S: Simd>(
         &mut self,
@@ -182,7 +180,7 @@ impl Batch {
         let low = [least::<S>(x), least::<S>(y)];
         let high = [most::<S>(x), most::<S>(y)];
         let side = SimdBase::max(high[0] - low[0], high[1] - low[1]);
-        // Corners far away meet the tile in the same columns and rows, but their edges are others.
+        // Corners far away touch the tile in the same columns and rows, but their edges differ.
         let large = side.simd_gt(splat_i(simd, SMALL)) | far_away;
         let reach = covering.reach();
         let first = each!(axis in 2 => {
@@ -235,7 +233,7 @@ impl Batch {
         }
     }
 
-    /// Finds the pixels that tiny triangles cover; returns which of all cover some, as far as that is known.
+    /// Finds the pixels that tiny triangles cover; returns the triangles that may cover some.
     #[inline(always)]
     fn find_pixels<S: Simd>(&mut self, simd: S, outlines: &Outlines<S>, samples: Samples) -> M<S> {
         let zero = splat_i(simd, 0);
@@ -250,7 +248,7 @@ impl Batch {
         !outlines.tiny | any.simd_gt(zero)
     }
 
-    /// The pixels that tiny triangles cover at a place in each, given from its center.
+    /// The pixels whose sample at this offset from the center tiny triangles cover.
     #[inline(always)]
     fn covered<S: Simd>(&self, simd: S, outlines: &Outlines<S>, [x, y]: [i32; 2]) -> I<S> {
         let Outlines { first, last, tiny, .. } = *outlines;
@@ -259,7 +257,7 @@ impl Batch {
         let mut row = each!(k in 3 => {
             (load_i(simd, &self.edge[k], 0) + across[k] * splat_i(simd, x) + down[k] * splat_i(simd, y)) >> 8
         });
-        // Below 0 in columns and rows that are beyond the last.
+        // Below 0 in columns and rows beyond the last.
         let columns = last[0] - first[0];
         let mut rows = last[1] - first[1];
         let (zero, one) = (splat_i(simd, 0), splat_i(simd, 1));
@@ -332,13 +330,13 @@ impl Batch {
         }
     }
 
-    /// Of a lane that is tiny or small: four numbers from their values at the three corners.
+    /// The slopes of four numbers in a tiny or small lane, from their values at the three corners.
     #[inline(always)]
     pub(crate) fn slopes<S: Simd>(&self, simd: S, lane: usize, values: [&[f32; 4]; 3]) -> LaneSlopes<S> {
         self.slopes_from(simd, lane, [self.weights[4][lane], self.weights[5][lane]], values)
     }
 
-    /// The same of a lane that is not tiny, from the first pixel on that may be covered.
+    /// The same for a lane that is not tiny, with the first pixel that may be covered as the base.
     #[inline(always)]
     pub(crate) fn slopes_near<S: Simd>(&self, simd: S, lane: usize, values: [&[f32; 4]; 3]) -> LaneSlopes<S> {
         let to_first = each!(axis in 2 => self.weights[4 + axis][lane] + self.bounds[2 * axis][lane] as f32);

@@ -1,4 +1,4 @@
-//! Triangles of a piece that stand in lanes: those that are lit together.
+//! Triangles of a piece in the lanes of a vector, which are lit together.
 
 use crate::input::pieces::PIECE_TRIANGLES;
 use crate::simd::lanes::{F, MOST_LANES, Simd, lanes, store_fours};
@@ -28,7 +28,7 @@ impl LaneTriangles {
     }
 }
 
-/// Puts numbers that stand in lanes where their triangles have their place.
+/// Scatters numbers from lanes to their triangles.
 #[inline(always)]
 pub(crate) fn spread<S: Simd>(numbers: [F<S>; 4], of: &LaneTriangles, to: &mut [[f32; 4]; PIECE_TRIANGLES]) {
     let mut fours = [[0.0; 4]; MOST_LANES];

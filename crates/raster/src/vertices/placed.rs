@@ -1,4 +1,4 @@
-//! Where pieces of an instance lie: in which tiles, and whether all of their faces turn away.
+//! The pieces of an instance on the picture: the tiles that they may cover, and whether all of their faces turn away.
 
 use crate::input::pass::{DrawCall, Pass};
 use crate::input::pieces::{Piece, PieceExtent};
@@ -14,10 +14,10 @@ pub(crate) struct PlacedInstance {
     rows: [[f32; 4]; 3],
     /// An upper bound of how much it stretches lengths.
     stretch: f32,
-    /// 1 or −1, the side of a face's normal that is left out; 0 where that cannot be told for many faces at once.
+    /// 1 or −1, the side of a face's normal that is culled; 0 if whole pieces cannot be culled.
     left_out: f32,
     lens: Lens,
-    /// What is no nearer is behind the near plane, also as it is rounded.
+    /// Surfaces no nearer are behind the near plane, even after rounding.
     inner_near: f32,
     size: [f32; 2],
 }
@@ -34,7 +34,7 @@ impl PlacedInstance {
         let even = right && xx.min(yy).min(zz) >= (1.0 - 1e-5) * largest;
         let stretch = if right { largest * (1.0 + 4e-6) } else { xx + yy + zz };
         let det = dot(x, [y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]]);
-        // The turned normal of a face is that of its front unless its winding is turned over, too.
+        // The transformed normal of a face is that of its front unless its winding is flipped, too.
         let side = if (det < 0.0) == draw.clockwise { 1.0 } else { -1.0 };
         let left_out = match draw.cull {
             Cull::None => 0.0,
@@ -55,7 +55,7 @@ impl PlacedInstance {
         self.rows.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3])
     }
 
-    /// Whether all faces of a piece show the side that is left out.
+    /// Whether all faces of a piece show the culled side.
     pub(crate) fn turns_away(&self, piece: &Piece) -> bool {
         let Some(cone) = piece.cone.filter(|_| self.left_out != 0.0) else { return false };
         let center = self.place(piece.extent.center);
@@ -64,12 +64,12 @@ impl PlacedInstance {
         self.lens.hides((center, piece.extent.radius * self.stretch), axis, [cone.cos, cone.sin])
     }
 
-    /// The tiles that points of an extent may be in; `None` where they are out of the picture.
+    /// The tiles that points of an extent may be in; `None` if they are outside the picture.
     pub(crate) fn tiles(&self, extent: &PieceExtent) -> Option<TileBox> {
         let [x, y, z] = self.place(extent.center);
         let radius = extent.radius * self.stretch * 1.0001;
-        // Along each axis of eye space the box or the sphere ends first. A flat box has no room for how vertices are
-        // rounded.
+        // Along each axis of eye space the smaller of the box and the sphere counts. A flat box needs a margin for the
+        // rounding of vertices.
         let reach = self.rows.map(|row| {
             let terms = [0, 1, 2].map(|k| (row[k].abs() * extent.half[k], row[k].abs() * extent.center[k].abs()));
             let of_box = terms[0].0 + terms[1].0 + terms[2].0;
@@ -94,31 +94,31 @@ fn inner_near(near: f32) -> f32 {
     if near > 0.0 { near * 1.0001 } else { near - near * 1e-4 }
 }
 
-/// Where an extent is on the picture.
+/// The position of an extent on the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TileBox {
     /// First and last column, first and last row of tiles.
     pub(crate) tiles: [u16; 4],
-    /// All of it is behind the near plane and inside the picture.
+    /// All of it is beyond the near plane and inside the picture.
     is_inside: bool,
 }
 
 impl TileBox {
-    /// Whether all its points lie so in the tiles next to one of these that they have places there: nothing is clipped,
-    /// and 16 bits take the way from the tile's center.
+    /// Whether all its points lie in neighbouring tiles: then nothing is clipped, and 16 bits hold the offsets from a
+    /// tile's center.
     pub(crate) fn is_at_hand(&self) -> bool {
         let [left, right, top, bottom] = self.tiles;
         self.is_inside && right - left <= 1 && bottom - top <= 1
     }
 
-    /// Whether it is at hand in a single tile, in which all that is part of it lies then, too.
+    /// Whether it is at hand and lies in a single tile.
     pub(crate) fn is_in_one(&self) -> bool {
         let [left, right, top, bottom] = self.tiles;
         self.is_inside && left == right && top == bottom
     }
 }
 
-/// The tiles from `low` to `high`, given as shares of a side, with a pixel to spare; and whether all that is in the
+/// The tiles from `low` to `high`, given as shares of a side, with a margin of a pixel; and whether all of it is in the
 /// picture.
 fn tiles_of(low: f32, high: f32, size: f32) -> Option<([u16; 2], bool)> {
     let (low, high) = (low * size - 1.0, high * size + 1.0);
@@ -148,8 +148,7 @@ mod tests {
         PlacedInstance { rows, stretch, left_out: 0.0, lens, inner_near: inner_near(lens.near), size: SIZE }
     }
 
-    /// The tile of a point as vertices are put onto the picture; `None` where it is before the near plane or out of
-    /// sight.
+    /// The tile of a point, projected as vertices are; `None` if it is before the near plane or outside the picture.
     fn tile_of(placed: &PlacedInstance, point: [f32; 3]) -> Option<[u16; 2]> {
         let [x, y, z] =
             placed.rows.map(|[a, b, c, d]| c.mul_add(point[2], b.mul_add(point[1], a.mul_add(point[0], d))));
@@ -162,7 +161,7 @@ mod tests {
     proptest! {
         // Boxes from flat to wide, near and far from the origin of the model, under any transform.
         #[test]
-        fn what_shows_in_a_tile_is_in_its_list(
+        fn every_visible_triangle_is_in_its_tiles_list(
             middle in prop::array::uniform3(-1.0_f32..1.0),
             away in prop::sample::select(vec![0.0_f32, 1.0, 100.0, 10_000.0]),
             half in prop::array::uniform3(prop::sample::select(vec![0.0_f32, 0.001, 0.1, 2.0])),
@@ -182,7 +181,7 @@ mod tests {
                 [a, b, c, to[row] - away * (a * middle[0] + b * middle[1] + c * middle[2])]
             });
             let placed = seen_by(lens, rows);
-            let tiles = placed.tiles(&PieceExtent::of(points.iter().copied()));
+            let tiles = placed.tiles(&PieceExtent::around(points.iter().copied()));
             let at_hand = tiles.filter(TileBox::is_at_hand);
             for point in points {
                 let at = tile_of(&placed, point);
@@ -198,12 +197,12 @@ mod tests {
 
     /// Whether a plate at a place, and with a near plane, is at hand.
     #[test]
-    fn nothing_is_at_hand_that_is_clipped_or_wide() {
+    fn clipped_and_wide_boxes_are_not_at_hand() {
         let at_hand = |x: f32, z: f32, near: f32| {
             let rows = [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, z]];
             let plate = [[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.1, 0.1, 0.0], [-0.1, 0.1, 0.0]];
             let placed = seen_by(Lens::perspective([1.0, 16.0 / 9.0], near), rows);
-            placed.tiles(&PieceExtent::of(plate.into_iter())).is_some_and(|tiles| tiles.is_at_hand())
+            placed.tiles(&PieceExtent::around(plate.into_iter())).is_some_and(|tiles| tiles.is_at_hand())
         };
         assert!(at_hand(0.3, -4.0, 0.1));
         assert!(!at_hand(3.95, -4.0, 0.1), "part of it is beside the picture");
@@ -211,12 +210,12 @@ mod tests {
         assert!(!at_hand(0.0, -0.5, 0.1), "it is in more than two columns of tiles");
     }
 
-    /// A plate that is seen edge-on stands in one column of tiles, and its sphere in many.
+    /// A plate seen edge-on lies in one column of tiles, and its sphere in many.
     #[test]
     fn boxes_leave_out_tiles_that_spheres_meet() {
         let placed = placed([[1.0, 0.0, 0.0, 0.02], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -4.0]]);
         let plate = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
-        let extent = PieceExtent::of(plate.into_iter());
+        let extent = PieceExtent::around(plate.into_iter());
         assert_eq!(placed.tiles(&extent).map(|of| of.tiles), Some([10, 10, 2, 8]));
         let ball = PieceExtent { half: [extent.radius; 3], ..extent };
         assert_eq!(placed.tiles(&ball).map(|TileBox { tiles: [left, right, ..], .. }| right - left), Some(11));

@@ -16,25 +16,26 @@ use halfway_lighting::record::InstanceRecord;
 
 /// Steps of the grid in a pixel.
 pub(crate) const GRID: i32 = 256;
-/// The longest side of a triangle's box on the grid that 32 bits take without care.
+/// The longest side of a triangle's box on the grid for which 32-bit arithmetic cannot overflow.
 pub(crate) const SMALL: i32 = 64 * GRID;
-/// Where screen coordinates end, in pixels: 2¹⁵ apart, so that edges fit into the arithmetic of coverage.
+/// The lower limit of picture coordinates, in pixels. The limits are 2¹⁵ apart, so that edges fit into the arithmetic
+/// of coverage.
 pub(crate) const SCREEN_LOW: f32 = -8190.0;
-/// The other end.
+/// The upper limit.
 pub(crate) const SCREEN_HIGH: f32 = 24_574.0;
 
 /// Reasons to clip the triangles of a vertex.
 pub(crate) const CLIPPED: i32 = 0b1_1111;
 /// It is nearer than the near plane, or behind the eye.
 pub(crate) const TOO_NEAR: i32 = 1;
-/// It is too far from the tile for 16 bits, and stands in [`Vertices::places`] nearer than it is, on the same side.
+/// It is too far from the tile for 16 bits; [`Vertices::places`] holds a nearer point on the same side.
 pub(crate) const FAR_AWAY: i32 = 0b10_0000;
 
-/// Where a piece lies.
+/// The position of a piece relative to a tile.
 pub(crate) enum PlacedPiece {
-    /// Around no pixel of the tile.
+    /// It covers no pixel of the tile.
     Beside,
-    /// Where it may be around some.
+    /// It may cover some.
     Anywhere,
     /// It is small: the first and last column and row of pixels of the tile that it may cover, and its greatest nearness.
     Box { first: [usize; 2], last: [usize; 2], nearest: f32 },
@@ -57,17 +58,17 @@ pub(crate) struct Vertices {
     pub(crate) codes: [i32; SLOTS],
     /// All codes together.
     pub(crate) any_code: i32,
-    /// Normal, color of the front, color of the back; of painted draws the vertices' own, opacity first.
+    /// Normal, color of the front, color of the back; in painted draws the vertex color, opacity first.
     pub(crate) raw: [List; 13],
     /// The nearness and the first three interpolated numbers over w, of front and back.
     pub(crate) lead: [Box<Attributes>; 2],
-    /// Whether the leading numbers are colors, which the sides have of their own.
+    /// Whether the leading numbers are colors, which differ between the sides.
     pub(crate) sides_lead: bool,
-    /// Nothing and three more of them.
+    /// An unused number and three more of them.
     pub(crate) second: [Box<Attributes>; 2],
     /// Of colored draws the opacity and the color, over w.
     pub(crate) paint: Box<Attributes>,
-    /// Of draws with images or a mask all that they take.
+    /// The numbers of draws with images or a mask.
     pub(crate) mapped: MappedVertices,
 }
 
@@ -92,8 +93,8 @@ impl Vertices {
         }
     }
 
-    /// Fills what shading takes, of the groups of vertices that some triangle that shows has: bit k is that of the k-th
-    /// so many as there are lanes.
+    /// Fills the inputs of shading for the groups of vertices that visible triangles use: bit k is the k-th vector of
+    /// vertices.
     #[inline(always)]
     pub(crate) fn light<S: Simd>(
         &mut self,
@@ -126,9 +127,9 @@ impl Vertices {
         }
     }
 
-    /// Puts a piece's vertices onto the picture; returns where they lie. `at_hand` says that none is clipped or far
-    /// from the tile (see [`TileBox::is_at_hand`](crate::vertices::placed::TileBox::is_at_hand)), `boxed` asks for the box of
-    /// what is small.
+    /// Projects a piece's vertices onto the picture; returns its position. `at_hand` means that none is clipped or far
+    /// from the tile (see [`TileBox::is_at_hand`](crate::vertices::placed::TileBox::is_at_hand)); `boxed` requests the box of
+    /// small pieces.
     #[inline(always)]
     pub(crate) fn place<S: Simd>(
         &mut self,
@@ -170,7 +171,7 @@ impl Vertices {
             }
         }
         self.any_code = if AT_HAND { 0 } else { any_code.as_slice().iter().fold(0, |all, code| all | code) };
-        // Triangles to be clipped may lie anywhere.
+        // Clipped triangles may lie anywhere.
         if self.any_code & CLIPPED != 0 {
             return PlacedPiece::Anywhere;
         }
@@ -189,7 +190,7 @@ impl Vertices {
             low.map(|low| low.as_slice().iter().copied().fold(i32::MAX, i32::min)),
             high.map(|high| high.as_slice().iter().copied().fold(i32::MIN, i32::max)),
         ];
-        // Depths of larger triangles are not those of their corners to the bit.
+        // The depths of larger triangles may exceed those of their corners by rounding.
         if (high[0] - low[0]).max(high[1] - low[1]) > SMALL {
             return PlacedPiece::Anywhere;
         }
@@ -279,7 +280,7 @@ impl Vertices {
             let side = state.side(pass, back);
             let color = if state.colored {
                 let own = each!(k in 3 => load(simd, &self.raw[10 + k], at));
-                // At the fragments there is a base already.
+                // Fragments add the base themselves.
                 let shade = if state.stage == Stage::Vertex { tinted } else { tinted_terms };
                 shade(simd, &terms, side, own)
             } else {
@@ -291,7 +292,7 @@ impl Vertices {
         }
     }
 
-    /// Brings each vertex's numbers together.
+    /// Interleaves each vertex's numbers.
     #[inline(always)]
     fn gather<S: Simd>(&mut self, simd: S, at: usize, state: &State) {
         let Self { raw, inverse_w, nearness, lead: [lead, lead_of_backs], second: [second, second_of_backs], .. } =
@@ -321,7 +322,7 @@ impl Vertices {
     }
 }
 
-/// Where groups of vertices begin.
+/// The first vertices of groups.
 #[inline(always)]
 pub(crate) fn places_of<S: Simd>(groups: u32) -> impl Iterator<Item = usize> {
     let mut left = groups;
@@ -346,7 +347,7 @@ fn over_w<S: Simd>(simd: S, (nearness, inverse_w): (F<S>, F<S>), raw: [&List; 3]
     store_fours::<S>([nearness, a, b, c], to, at);
 }
 
-/// Points through rows.
+/// Points transformed by rows.
 #[inline(always)]
 pub(crate) fn transformed<S: Simd>(simd: S, rows: &[[f32; 4]; 3], p: V3<S>) -> V3<S> {
     each!(axis in 3 => {
@@ -355,7 +356,7 @@ pub(crate) fn transformed<S: Simd>(simd: S, rows: &[[f32; 4]; 3], p: V3<S>) -> V
     })
 }
 
-/// Directions through columns.
+/// Directions transformed by columns.
 #[inline(always)]
 pub(crate) fn turned<S: Simd>(simd: S, columns: &[[f32; 3]; 3], n: V3<S>) -> V3<S> {
     each!(axis in 3 => {

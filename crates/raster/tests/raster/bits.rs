@@ -144,8 +144,7 @@ fn scenes() -> Vec<(String, Scene)> {
     scenes
 }
 
-/// The hashes of the ten pictures, the same on every machine. After a change that pictures show, the test prints them
-/// anew.
+/// The hashes of the ten pictures, the same on every machine. After a visible change the test prints new ones.
 const HASHES: [u64; 10] = [
     0xc943_811b_9387_2d2d,
     0x07d0_5f52_2d48_715a,
@@ -159,7 +158,7 @@ const HASHES: [u64; 10] = [
     0x841e_22fb_3a42_b195,
 ];
 
-/// So that on ARM the pictures below are drawn with NEON.
+/// Ensures that the pictures below are drawn with NEON on ARM.
 #[test]
 fn the_narrowest_width_is_what_every_cpu_of_the_target_has() {
     let always = if cfg!(target_arch = "aarch64") { VectorWidth::Neon } else { VectorWidth::Plain };
@@ -167,7 +166,7 @@ fn the_narrowest_width_is_what_every_cpu_of_the_target_has() {
 }
 
 #[test]
-fn ten_pictures_have_the_same_bits_on_every_width_and_with_any_threads() {
+fn ten_pictures_have_the_same_bits_on_every_simd_level() {
     let scenes = scenes();
     let mut found = Vec::new();
     for width in VectorWidth::available() {
@@ -225,8 +224,8 @@ fn pictures_differ_where_scenes_do() {
     assert_eq!(hashes.len(), 10);
 }
 
-/// What is hidden is not lit; drawn far to near nothing is hidden, and the picture is the same to the bit. The balls do
-/// not touch, so that no two surfaces lie in one depth.
+/// Hidden surfaces are not lit; drawn far to near nothing is hidden, and the picture is the same to the bit. The balls
+/// do not touch, so that no two surfaces have equal depths.
 #[test]
 fn order_changes_no_bit_of_what_is_opaque() {
     for shading in Shading::ALL {

@@ -1,4 +1,4 @@
-//! Which pixels triangles cover, against an exact fill rule in 64 bits on the same corners of the grid.
+//! Coverage of triangles, against an exact fill rule in 64 bits on the same corners of the grid.
 
 use crate::common::{Scene, Shading, at, draw};
 use halfway_lighting::record::{Cull, MaterialRecord, SurfaceRecord};
@@ -21,8 +21,8 @@ fn point([x, y]: Corner) -> [f32; 3] {
     [x as f32 / half - 1.0, 1.0 - y as f32 / half, -1.0]
 }
 
-/// White triangles over black. Half-transparent ones make 0.5 where one of them covers a sample, 0.75 where two do;
-/// opaque ones, which are drawn in other ways, 1 where any does.
+/// White triangles over black. Half-transparent ones give 0.5 where one of them covers a sample, 0.75 where two do;
+/// opaque ones, which take other code paths, 1 where any does.
 fn scene(triangles: &[[[f32; 3]; 3]], samples: Samples, blend: bool) -> Scene {
     let positions = triangles.concat();
     let indices: Vec<_> = (0..positions.len() as u32).collect();
@@ -57,7 +57,7 @@ fn picture(scene: &Scene, width: VectorWidth) -> Vec<f32> {
     floats.chunks_exact(4).map(|pixel| pixel[0]).collect()
 }
 
-/// Whether a triangle covers a point of the grid: what is on an edge belongs to the triangle whose left or top edge it
+/// Whether a triangle covers a point of the grid: a point on an edge belongs to the triangle whose left or top edge it
 /// is.
 fn covers(corners: [Corner; 3], [x, y]: Corner) -> bool {
     let [a, b, c] = corners;
@@ -77,7 +77,7 @@ fn covers(corners: [Corner; 3], [x, y]: Corner) -> bool {
 /// Whether a triangle covers a point.
 type Rule = fn([Corner; 3], Corner) -> bool;
 
-/// What the picture must show of a pixel.
+/// The value that a pixel must have.
 fn expected(rule: Rule, triangles: &[[Corner; 3]], samples: Samples, blend: bool, x: i64, y: i64) -> f32 {
     let places: &[Corner] = match samples {
         Samples::One => &[[0, 0]],
@@ -92,7 +92,7 @@ fn expected(rule: Rule, triangles: &[[Corner; 3]], samples: Samples, blend: bool
     places.iter().map(shown).sum::<f32>() / places.len() as f32
 }
 
-/// Draws triangles in every way, and compares each pixel with what the exact rule says of it.
+/// Draws triangles by every code path, and compares each pixel with the exact rule.
 fn check(triangles: &[[Corner; 3]]) -> Result<(), TestCaseError> {
     for samples in [Samples::One, Samples::Four] {
         for blend in [false, true] {
@@ -147,12 +147,12 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_triangle_covers_what_the_fill_rule_says(triangle in triangle()) {
+    fn a_triangle_covers_pixels_by_the_fill_rule(triangle in triangle()) {
         check(&[triangle])?;
     }
 
     #[test]
-    fn many_triangles_cover_what_the_fill_rule_says(triangles in prop::collection::vec(triangle(), 2..70)) {
+    fn many_triangles_cover_pixels_by_the_fill_rule(triangles in prop::collection::vec(triangle(), 2..70)) {
         // More than one vector of them, and more than one piece.
         check_by(covers, &triangles, Samples::One, false)?;
         check_by(covers, &triangles, Samples::Four, false)?;
@@ -160,7 +160,7 @@ proptest! {
 
     #[test]
     fn of_adjacent_triangles_one_covers_each_pixel(a in corner(), b in corner(), c in corner(), inner in corner()) {
-        // Three triangles around a point, which may lie outside: then they overlap, as the rule says where.
+        // Three triangles around a point, which may lie outside: then they overlap, where the rule decides.
         let fan = [[a, b, inner], [b, c, inner], [c, a, inner]];
         check(&fan)?;
     }
@@ -184,7 +184,7 @@ proptest! {
         let [whole, parts] = [whole, parts].map(|picture| picture.iter().map(|&x| (x * 4.0) as i32).collect::<Vec<_>>());
         for (place, (in_whole, in_parts)) in whole.iter().zip(&parts).enumerate() {
             prop_assert!(*in_parts < 3, "pixel {} is covered twice, {:?}, {:?}", place, corners, inside);
-            // Where the near plane cuts, the parts' outline has a corner more, on the grid beside the whole's.
+            // Where the near plane clips, the parts' outline has one more corner, rounded beside the whole's edge.
             let neighbors = [place.wrapping_sub(1), place + 1, place.wrapping_sub(side), place + side];
             let on_outline = neighbors.iter().any(|&near| whole.get(near).is_some_and(|near| near != in_whole));
             prop_assert!(in_whole == in_parts || on_outline, "pixel {} of {:?} and {:?}", place, corners, inside);

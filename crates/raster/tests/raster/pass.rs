@@ -1,4 +1,4 @@
-//! What passes mean apart from light: order, blending, formats, ranges of indices, and what is refused.
+//! Passes without lighting: order, blending, formats, ranges of indices, and refused input.
 
 use crate::common::{Scene, Shading, at, draw, lens, sphere};
 use halfway_lighting::record::{Cull, LightRecord, MaterialRecord, SurfaceRecord};
@@ -95,7 +95,7 @@ fn blended_surfaces_are_laid_over_in_order() {
 }
 
 #[test]
-fn blended_surfaces_are_drawn_after_opaque_ones_and_hidden_by_them() {
+fn blended_surfaces_are_drawn_after_opaque_ones() {
     let mut scene = squares(&[(2.0, RED, 0.5), (4.0, RED, 0.5), (3.0, GREEN, 1.0)], true);
     scene.draws[2].blend = false;
     every_pixel_is(&scene, [0.5, 0.5, 0.0]);
@@ -103,14 +103,14 @@ fn blended_surfaces_are_drawn_after_opaque_ones_and_hidden_by_them() {
 
 #[test]
 fn triangles_of_a_mesh_blend_in_their_order() {
-    // Squares of one mesh over each other: small ones and large ones by turns, each over what is there by a half.
+    // Squares of one mesh over each other, small and large in turn, each blended by a half.
     let mut positions = Vec::new();
     let mut scene = squares(&[(2.0, RED, 0.5)], true);
     for (number, reach) in [9.0_f32, 0.05, 9.0, 0.05, 0.05, 9.0].into_iter().enumerate() {
         let depth = -0.01 * number as f32;
         positions.extend([[-reach, -reach, depth], [reach, -reach, depth], [0.0, reach, depth]]);
     }
-    // Front and back differ in color, and triangles turn over by turns.
+    // Front and back differ in color, and every other triangle is flipped.
     let indices: Vec<_> = (0..6)
         .flat_map(|k| if k % 2 == 0 { [3 * k, 3 * k + 1, 3 * k + 2] } else { [3 * k, 3 * k + 2, 3 * k + 1] })
         .collect();
@@ -130,7 +130,7 @@ fn a_range_of_indices_draws_its_triangles() {
     let mut scene = squares(&[(2.0, RED, 1.0)], false);
     scene.draws[0].indices = 3..6;
     let reds = floats(&scene).iter().filter(|pixel| pixel[0] > 0.5).count();
-    // The upper left half of 70 × 66 pixels, but for how the diagonal of another shape runs.
+    // About the upper left half of 70 × 66 pixels, since the diagonal may run differently.
     assert!((1_500..3_200).contains(&reds), "{reds}");
     scene.draws[0].indices = 1..6;
     let refused = refusal(&scene);
@@ -203,7 +203,7 @@ fn refusal(scene: &Scene) -> RasterError {
 }
 
 #[test]
-fn what_is_wrong_is_refused_and_named() {
+fn invalid_passes_are_refused_by_name() {
     type Spoil = fn(&mut Scene);
     let cases: [(&str, Spoil); 12] = [
         ("each side must be", |scene| scene.size = [LARGEST_SIDE + 1, 4]),
@@ -250,14 +250,14 @@ fn meshes_that_are_not_sound_are_refused() {
 }
 
 #[test]
-fn unknown_widths_are_refused_with_those_that_there_are() {
+fn an_unknown_simd_level_is_refused_with_a_list() {
     let refused = VectorWidth::named("mmx").expect_err("long gone").to_string();
     let plainest = VectorWidth::available().last().expect("one").to_string();
     assert!(refused.contains("\"mmx\"") && refused.contains(&plainest), "{refused}");
 }
 
 #[test]
-fn what_collapses_draws_nothing_or_itself_and_is_finite() {
+fn collapsed_triangles_give_finite_pictures() {
     let mut scene = sphere(true, Shading::Phong).expect("a sound mesh");
     scene.pixels = PixelFormat::Floats;
     for rows in [

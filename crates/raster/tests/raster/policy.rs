@@ -4,8 +4,8 @@ use halfway_lighting::equations::{aces, divisor, reinhard, srgb_encoded};
 use halfway_lighting::{CHANNEL_MAX, Intensity};
 use halfway_raster::{Output, PixelFormat, RasterError, RasterOptions, Rasterizer, VectorWidth};
 
-/// Pixels of all magnitudes whose largest channel is 50, in a place that no vector begins with. More than one part, and
-/// no multiple of any width.
+/// Pixels of all magnitudes whose largest channel is 50, at an index where no vector begins. More than one part, and no
+/// multiple of any width.
 fn drawn() -> Vec<f32> {
     let mut state = 7_u32;
     let mut next = || {
@@ -104,7 +104,7 @@ fn extremes_stay_numbers() {
 }
 
 #[test]
-fn what_cannot_be_finished_is_refused() {
+fn invalid_policies_are_refused() {
     let rasterizer = Rasterizer::new(RasterOptions::default()).expect("threads");
     let (mut few, mut floats) = ([0_u8; 4], [0.0; 8]);
     let aces = Intensity::Aces;

@@ -15,7 +15,7 @@ use halfway_raster::{ClearTiles, Output, Pieces, PixelFormat, RasterOptions, Ras
 
 type V = [f64; 3];
 
-/// What the slow renderer knows besides the pass.
+/// The slow renderer's data besides the pass.
 struct Case {
     scene: Scene,
     mesh: Mesh,
@@ -100,7 +100,7 @@ fn case(shading: Shading, reflectance: Reflectance) -> Case {
 }
 
 impl Case {
-    /// Stands the mesh by another matrix, given as columns.
+    /// The mesh under another matrix, given as columns.
     fn with(mut self, linear: [[f64; 3]; 3]) -> Self {
         let row = |axis: usize| [linear[0][axis], linear[1][axis], linear[2][axis], self.place[axis]].map(|x| x as f32);
         let normal = normal_matrix(linear).map(|column| column.map(|x| x as f32));
@@ -184,7 +184,7 @@ impl Case {
         self.mesh.triangles().map(|triangle| triangle.map(corner)).collect()
     }
 
-    /// The nearest triangle along the way through a place of the picture, as its number, weights and side.
+    /// The nearest triangle along the ray through a point of the picture, as its number, weights and side.
     fn hit(&self, triangles: &[[V; 3]], x: f64, y: f64) -> Option<(usize, V, bool)> {
         let [width, height] = self.scene.size.map(f64::from);
         let [sx, sy] = self.scene.lens.scale.map(f64::from);
@@ -380,7 +380,7 @@ fn a_sliver_has_the_colors_of_its_corners_and_not_of_the_grids() {
     for column in 20..45 {
         let expected = height(f(eye([f64::from(column) + 0.5, 20.5]))) / height(b);
         let found = f64::from(floats[4 * (20 * 64 + column as usize)]);
-        // Places are kept to 2⁻¹⁶ of a pixel: a thousandth of the height.
+        // Positions are stored to 2⁻¹⁶ of a pixel: a thousandth of the height.
         assert!((found - expected).abs() < 2e-3, "column {column}: {found} for {expected}");
     }
 }

@@ -23,7 +23,7 @@ pub struct FrameDelay {
 }
 
 impl FrameDelay {
-    /// For so many frames a second; 0 is taken as 1.
+    /// The delay for a frame rate in frames a second; 0 is taken as 1.
     pub const fn per_second(frames: u16) -> Self {
         Self { numerator: 1, denominator: if frames == 0 { 1 } else { frames } }
     }

@@ -86,13 +86,13 @@ pub fn compare(
     encoding: Encoding,
 ) -> Result<Comparison, SizeMismatch> {
     let bands = BandPairs::new(actual, expected)?;
-    let mut seen = Sight::new(encoding);
-    bands.each().for_each(|band| seen.take(&band));
-    Ok(seen.comparison(bands.size))
+    let mut sums = PixelSums::new(encoding);
+    bands.each().for_each(|band| sums.add_band(&band));
+    Ok(sums.comparison(bands.size))
 }
 
 /// The sums of one pass over all pixels.
-struct Sight {
+struct PixelSums {
     encoding: Encoding,
     counted: usize,
     equal: usize,
@@ -109,7 +109,7 @@ struct Sight {
     anywhere: Difference,
 }
 
-impl Sight {
+impl PixelSums {
     fn new(encoding: Encoding) -> Self {
         Self {
             encoding,
@@ -127,7 +127,7 @@ impl Sight {
         }
     }
 
-    fn take(&mut self, band: &Band) {
+    fn add_band(&mut self, band: &Band) {
         let bytes = [&band.actual, &band.expected].map(|image| image.to_bytes(self.encoding));
         if band.actual.covered().is_some() && band.expected.covered().is_some() {
             self.coverage.get_or_insert_default();

@@ -192,11 +192,11 @@ impl Method {
     /// The value of each pixel of the expected and the actual picture, which have one size.
     fn map(&self, pictures: [RgbImage; 2]) -> Vec<f64> {
         let space = ColorSpace::new();
-        let [expected, actual] = pictures.map(|picture| self.seen(&space, &picture));
+        let [expected, actual] = pictures.map(|picture| self.perceived(&space, &picture));
         expected.into_par_iter().zip(actual).map(|(expected, actual)| self.value(expected, actual)).collect()
     }
 
-    fn value(&self, expected: Seen, actual: Seen) -> f64 {
+    fn value(&self, expected: Perceived, actual: Perceived) -> f64 {
         let Constants { color_exponent, knee: (at, height), feature_exponent, .. } = self.constants;
         let difference = hyab(expected.color, actual.color).pow(color_exponent) / self.largest_difference;
         let color = if difference < at {
@@ -210,7 +210,7 @@ impl Method {
     }
 
     /// The perceived color and features of each pixel.
-    fn seen(&self, space: &ColorSpace, picture: &RgbImage) -> Vec<Seen> {
+    fn perceived(&self, space: &ColorSpace, picture: &RgbImage) -> Vec<Perceived> {
         let linear: [f64; 256] = std::array::from_fn(|byte| Encoding::Srgb.decode(byte as f64 / 255.0));
         let width = picture.width() as usize;
         let opponent = picture.pixels().map(|pixel| {
@@ -226,19 +226,19 @@ impl Method {
             x.values.into_iter().zip(y.values).map(|(x, y)| x.hypotenuse(y)).collect::<Vec<f64>>()
         };
         let (edges, points) = (magnitude(&self.edge), magnitude(&self.point));
-        let seen = |i: usize| {
+        let pixel = |i: usize| {
             let opponent = DVec3::from_array(std::array::from_fn(|k| blurred[k].values[i]));
             // The blur may produce colours that no display shows.
             let rgb = space.rgb_from_opponent(opponent).clamp(DVec3::ZERO, DVec3::ONE);
-            Seen { color: space.hunt_adjusted_lab(rgb), edge: edges[i], point: points[i] }
+            Perceived { color: space.hunt_adjusted_lab(rgb), edge: edges[i], point: points[i] }
         };
-        (0..opponent.len()).into_par_iter().map(seen).collect()
+        (0..opponent.len()).into_par_iter().map(pixel).collect()
     }
 }
 
 /// A pixel as the eye perceives it.
 #[derive(Clone, Copy, Debug)]
-struct Seen {
+struct Perceived {
     /// Blurred, in L*a*b* adjusted by Hunt.
     color: DVec3,
     /// The strength of an edge, and of a point, there.

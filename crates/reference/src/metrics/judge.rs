@@ -255,7 +255,7 @@ fn judge_with(
         // With four samples the centre proves nothing if something else is beside it.
         if is_over || (samples == Samples::Four && ruler.differs_beside(expected, at)) {
             if bars.until_wrong && is_wrong.load(Ordering::Relaxed) {
-                return PixelFinding::Unasked;
+                return PixelFinding::Skipped;
             }
             let possible = possible(at.0, at.1);
             let has_choice = ruler.has_choice(&possible);
@@ -308,7 +308,7 @@ enum PixelFinding {
     /// It shows no object, and is right.
     Background,
     /// It is over the bar, and another pixel is already wrong.
-    Unasked,
+    Skipped,
     /// Its position, its actual and expected colour, and the errors.
     Counted((u32, u32), [[f64; 3]; 2], [f64; 3]),
 }
@@ -439,7 +439,7 @@ impl Tally {
             }
             PixelFinding::Edge => self.edges += 1,
             PixelFinding::Layered => self.layered += 1,
-            PixelFinding::Background | PixelFinding::Unasked => {}
+            PixelFinding::Background | PixelFinding::Skipped => {}
             PixelFinding::Counted(at, values, errors) => self.count(at, values, errors),
         }
     }

@@ -1,4 +1,4 @@
-//! Every pixel.
+//! Draws every pixel, tile by tile.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -30,8 +30,8 @@ impl Oracle {
         }
     }
 
-    /// Draws the picture on all cores; `progress` is told how many tiles are done of how many, from any thread, and may
-    /// stop the work.
+    /// Draws the picture on all cores; `progress` receives the number of finished tiles and of all tiles, from any
+    /// thread, and may stop the work.
     ///
     /// # Errors
     /// [`Stopped`] where `progress` said so.
@@ -73,7 +73,7 @@ impl Oracle {
         part
     }
 
-    /// What lies on the rays through the pixels of a part, each at `offset` from the pixel's top left corner.
+    /// The layers on the rays through the pixels of a part, each at `offset` from the pixel's top left corner.
     fn layers(&self, tile: usize, part: &DrawnTile, offset: [f64; 2]) -> Vec<Layers> {
         let mut layers = vec![Layers::default(); part.pixels.len()];
         let height = part.pixels.len() as u32 / part.width;
@@ -131,7 +131,7 @@ impl Oracle {
 /// The pixels, of `count` from `first` on, whose samples at `offset` lie from `low` to `high`.
 fn covered(low: f64, high: f64, offset: f64, first: u32, count: u32) -> Range<u32> {
     let pixel = |at: f64| (at as u32).clamp(first, first + count);
-    // Casts take what is below 0 to 0.
+    // Casts saturate negative numbers to 0.
     pixel((low - offset).ceil())..pixel((high - offset).floor() + 1.0)
 }
 

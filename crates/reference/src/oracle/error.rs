@@ -1,4 +1,4 @@
-//! What keeps a scene from being drawn.
+//! The errors of a scene that cannot be drawn.
 
 use bevy_ecs::prelude::{Entity, Name};
 use halfway_lighting::InvalidValue;
@@ -8,7 +8,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum OracleError {
-    /// There is nothing to look through.
+    /// The world has no camera.
     #[error("the scene has no camera: spawn an entity with a `Camera` and a `Transform`")]
     NoCamera,
     /// More than one camera is in the world.
@@ -19,7 +19,7 @@ pub enum OracleError {
     Invalid {
         /// The entity that carries the component, by its `Name` where it has one.
         entity: String,
-        /// Which field, and what it may hold.
+        /// The field and its range.
         source: InvalidValue,
     },
     /// An entity's `GlobalTransform` holds a number that is not finite, or gives a camera no direction.
@@ -32,7 +32,7 @@ pub enum OracleError {
         /// The matrix as it was found, column by column.
         found: String,
     },
-    /// Nothing carries `Transform`s over to `GlobalTransform`s, so that everything would be at the origin.
+    /// No system propagates `Transform`s to `GlobalTransform`s, so everything would be at the origin.
     #[error(
         "{entity}: its `Transform` has not reached its `GlobalTransform`. Add `TransformPlugin` and run the app's \
          schedules once, or propagate transforms before the oracle looks at the world"
@@ -62,7 +62,7 @@ pub enum OracleError {
         width: u32,
         /// Its height in pixels.
         height: u32,
-        /// How many pixels are drawn at most.
+        /// The most pixels that are drawn.
         limit: u64,
     },
 }
@@ -72,7 +72,7 @@ pub enum OracleError {
 #[error("stopped")]
 pub struct Stopped;
 
-/// [`Shown`](halfway_lighting::Shown) asks a world for no resource, so that there is nothing it could lack.
+/// The queries read no resource that a world could lack.
 pub(super) const ALWAYS: &str = "queries can be had of every world";
 
 /// An entity's name for an error: its `Name`, or its number.

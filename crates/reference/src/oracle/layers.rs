@@ -1,9 +1,9 @@
-//! What lies on one ray, and the colour that it makes.
+//! The visible hits on one ray, and their blended colour.
 
 use halfway_lighting::Faces;
 
-use super::gather::OracleScene;
 use super::raster::Hit;
+use super::scene::OracleScene;
 use super::solid::Color;
 
 /// The hits on one ray that can be seen: the nearest opaque one, and the blended ones. They have to be added in the
@@ -18,7 +18,7 @@ pub(super) struct Layers {
 /// can tell apart.
 const EQUAL_DEPTH: f64 = 1e-9;
 
-/// Whether what is at depth `a` hides what was drawn at depth `b` before.
+/// Whether a surface at depth `a` hides one that was drawn before at depth `b`.
 fn hides(a: f64, b: f64) -> bool {
     a < b * (1.0 - EQUAL_DEPTH)
 }
@@ -39,17 +39,16 @@ impl Layers {
         self.opaque.is_none() && self.blended.is_empty()
     }
 
-    /// What is seen, in the order in which it is drawn: the opaque hit, then the blended ones before it.
+    /// The visible hits in drawing order: the opaque one, then the blended ones before it.
     pub(super) fn visible(&self, scene: &OracleScene) -> impl Iterator<Item = &Hit> {
         let before = |hit: &&Hit| self.opaque.is_none_or(|opaque| hides(hit.depth, opaque.depth));
         let mut blended: Vec<&Hit> = self.blended.iter().filter(before).collect();
-        // Of a two-sided object the far side comes first. Stable: in one pass triangles stay in their order.
+        // A two-sided object draws its far side first. Stable: in one pass triangles keep their order.
         blended.sort_by_key(|hit| (hit.solid, hit.front && scene.solids[hit.solid].faces == Faces::Both));
         self.opaque.iter().chain(blended)
     }
 
-    /// I of everything on the ray before what is `behind`, one over the other; each is clamped to 1 first where `clamp`
-    /// says so.
+    /// The intensities of all visible hits, blended over `behind`; each is first clamped to 1 if `clamp` is set.
     pub(super) fn color(&self, scene: &OracleScene, behind: Color, clamp: bool) -> Color {
         let written = |i: Color| if clamp { i.map(|channel| channel.min(1.0)) } else { i };
         self.visible(scene).fold(written(behind), |behind, hit| {

@@ -4,9 +4,9 @@ use bevy_math::{DAffine3, DMat3, DVec3, DVec4};
 use halfway_mesh::Mesh;
 use halfway_texture::{Channel, FarNormals, MapKind, Pyramid, Sampling, SurfaceMap, UvTransform};
 
-/// What the scene says of an image on an object.
+/// An image on an object as the scene's components describe it.
 #[derive(Clone, Debug)]
-pub(super) struct ReadMap {
+pub(super) struct MapSource {
     pub(super) pyramid: Pyramid,
     pub(super) map: SurfaceMap,
 }
@@ -19,27 +19,27 @@ pub(super) type MapSlots<T> = [Option<T>; MapKind::COUNT];
 pub(super) struct SolidMap {
     pub(super) pyramid: Pyramid,
     pub(super) sampling: Sampling,
-    /// Where the vertices lie on it.
+    /// The transformed texture coordinates of the vertices.
     pub(super) uvs: Vec<[f64; 2]>,
     pub(super) channel: Channel,
     pub(super) amount: f64,
     pub(super) far_normals: FarNormals,
 }
 
-/// All of them, and what turns normals.
+/// The images of an object, and the vertex data of its normal and height maps.
 #[derive(Clone, Debug)]
 pub(super) struct SolidMaps {
     pub(super) slots: MapSlots<SolidMap>,
-    /// Where there is a normal map: the tangents of the vertices in eye space, and w.
+    /// With a normal map: the tangents of the vertices in eye space, and w.
     pub(super) tangents: Vec<DVec4>,
-    /// Where there is a height map: what becomes of a unit length along the vertices' normals.
+    /// With a height map: the vertices' model-space normals, transformed as directions into eye space.
     pub(super) rises: Vec<DVec3>,
 }
 
-/// The mesh with what its images take besides coordinates: tangents, where there is a normal map and it has none.
-pub(super) fn prepared(mesh: Mesh, looks: &MapSlots<ReadMap>) -> Mesh {
-    match &looks[MapKind::Normal as usize] {
-        Some(ReadMap { map, .. }) if mesh.tangents().is_none() => {
+/// The mesh, with tangents added if it has a normal map and no tangents.
+pub(super) fn prepared(mesh: Mesh, sources: &MapSlots<MapSource>) -> Mesh {
+    match &sources[MapKind::Normal as usize] {
+        Some(MapSource { map, .. }) if mesh.tangents().is_none() => {
             mesh.clone().with_tangents_of(map.uv_set as usize).unwrap_or(mesh)
         }
         _ => mesh,
@@ -47,17 +47,17 @@ pub(super) fn prepared(mesh: Mesh, looks: &MapSlots<ReadMap>) -> Mesh {
 }
 
 impl SolidMaps {
-    /// `None` where the mesh shows none.
+    /// `None` if the mesh has no images.
     pub(super) fn new(
         mesh: &Mesh,
-        looks: &MapSlots<ReadMap>,
+        sources: &MapSlots<MapSource>,
         eye_from_model: &DAffine3,
         mirrored: bool,
     ) -> Option<Self> {
-        if looks.iter().all(Option::is_none) {
+        if sources.iter().all(Option::is_none) {
             return None;
         }
-        let slot = |ReadMap { pyramid, map }: &ReadMap| {
+        let slot = |MapSource { pyramid, map }: &MapSource| {
             let rows = map.transform.rows();
             let uvs = mesh.uv_set(map.uv_set as usize).unwrap_or_default().iter();
             SolidMap {
@@ -69,7 +69,7 @@ impl SolidMaps {
                 far_normals: map.far_normals,
             }
         };
-        let slots = looks.each_ref().map(|looks| looks.as_ref().map(slot));
+        let slots = sources.each_ref().map(|source| source.as_ref().map(slot));
         let m: DMat3 = eye_from_model.matrix3;
         let tangent = |t: &bevy_math::Vec4| {
             let turned = (m * t.truncate().as_dvec3()).normalize_or_zero();
@@ -97,7 +97,7 @@ impl SolidMaps {
         self.slots[kind as usize].is_some()
     }
 
-    /// What highlights take of its normals beside where they point.
+    /// How highlights use the filtered normals of a normal map.
     pub(super) fn far_normals(&self) -> FarNormals {
         self.slots[MapKind::Normal as usize].as_ref().map_or(FarNormals::Mean, |map| map.far_normals)
     }

@@ -1,12 +1,13 @@
 //! The oracle: what each pixel of a scene should be.
 //!
-//! `gather` takes the world's entities into eye space (`view`, `solid`), `raster` finds what a ray through a point of
-//! the picture meets, `shade` says what that gives back, `layers` puts it one over the other, `draw` does so for every
-//! pixel and `probe` for any point. `possible` says what else a pixel may show, for judges.
+//! `scene` transforms the world's entities into eye space (`view`, `solid`), `raster` intersects the ray through a
+//! point of the picture, `shade` computes the colour of a hit, `layers` blends the hits of a ray, `draw` does so for
+//! every pixel and `probe` for any point. `possible` lists the other colours that a pixel may show, for the judge.
 
 mod draw;
+mod environment;
+mod environment_terms;
 mod error;
-mod gather;
 mod grid;
 mod layers;
 mod mapped;
@@ -15,10 +16,9 @@ mod mode;
 mod possible;
 mod probe;
 mod raster;
+mod scene;
 mod shade;
 mod solid;
-mod surrounded;
-mod surroundings;
 mod view;
 
 use std::sync::OnceLock;
@@ -31,26 +31,26 @@ use halfway_lighting::{Intensity, Samples};
 pub use error::{OracleError, Stopped};
 pub use mode::Mode;
 pub use possible::{ColorRange, Possible};
-pub use probe::{Nearest, Seen};
+pub use probe::{Nearest, Probe};
 
-use gather::OracleScene;
 use grid::VertexGrid;
 use raster::Tiles;
+use scene::OracleScene;
 
 use crate::Image;
 
 /// A scene, ready to be drawn in f64.
 ///
-/// What is drawn where:
-/// - A point of the picture shows what the ray through it meets: the nearest opaque surface beyond the near plane, and
-///   the blended ones before it. Of two triangles that share an edge exactly one is met (top-left rule). Triangles
+/// Visibility:
+/// - A point of the picture shows the surfaces on the ray through it: the nearest opaque one beyond the near plane, and
+///   the blended ones before it. Of two triangles that share an edge exactly one is hit (top-left rule). Triangles
 ///   without area are not drawn.
 /// - Opaque surfaces at equal depth (to 10⁻⁹ of it): the one that was spawned first, then the one that comes first in
 ///   the mesh.
-/// - What the camera's [`Intensity`] makes of the finished picture is done last, after samples are averaged.
+/// - The camera's [`Intensity`] acts on the finished picture, after samples are averaged.
 /// - Blended objects are drawn over the opaque ones from back to front by the view depth of the middle of their bounds,
 ///   those of equal depth (in f32) as they were spawned; of a two-sided one the back faces, then the front faces; then
-///   in the order of the mesh. Each gives opacity·I + (1 − opacity)·what is behind.
+///   in the order of the mesh. Each gives opacity·I + (1 − opacity)·B, where B is the color behind it.
 #[derive(Clone, Debug)]
 pub struct Oracle {
     scene: OracleScene,
@@ -61,7 +61,7 @@ pub struct Oracle {
     grid: Option<VertexGrid>,
     /// The divisor of the frame before.
     before: Option<f64>,
-    /// Found when they are first needed: they depend on the mode.
+    /// Computed at first use, since they depend on the mode.
     tiles: OnceLock<Tiles>,
 }
 
@@ -71,13 +71,13 @@ impl Oracle {
     /// The most samples a pixel along each axis, 64.
     pub const MAX_SUPERSAMPLING: u32 = 64;
 
-    /// Takes the scene as it stands in `world`, for a picture of `size` pixels.
+    /// Reads the current scene of `world`, for a picture of `size` pixels.
     ///
-    /// `GlobalTransform`s have to be current, as they are after a frame of the App. Where there is no `GlobalAmbient`
-    /// resource its default counts.
+    /// `GlobalTransform`s have to be current, as they are after a frame of the App. Without a `GlobalAmbient` resource
+    /// its default is used.
     ///
     /// # Errors
-    /// The first thing that keeps the scene from being drawn as asked.
+    /// The first reason for which the scene cannot be drawn.
     pub fn new(world: &mut World, size: UVec2) -> Result<Self, OracleError> {
         let UVec2 { x: width, y: height } = size;
         if width == 0 || height == 0 {
@@ -86,11 +86,11 @@ impl Oracle {
         if u64::from(width) * u64::from(height) > Self::MAX_PIXELS {
             return Err(OracleError::TooLarge { width, height, limit: Self::MAX_PIXELS });
         }
-        let scene = OracleScene::gather(world, size)?;
+        let scene = OracleScene::from_world(world, size)?;
         Ok(Self { scene, size, supersampling: 1, clamp: false, grid: None, before: None, tiles: OnceLock::new() })
     }
 
-    /// What is drawn of each object; [`Mode::Mesh`] unless said.
+    /// Draws each object's mesh or its surface. Default [`Mode::Mesh`].
     #[must_use]
     pub fn with_mode(mut self, mode: Mode) -> Self {
         for solid in &mut self.scene.solids {
@@ -100,9 +100,9 @@ impl Oracle {
         self
     }
 
-    /// Draws as a rasterizer that puts vertices on a grid of N bits within a pixel; exactly unless said. What is
-    /// interpolated between vertices, and how it changes from a pixel to the next, is then as on the moved triangles;
-    /// what is shaded at vertices is not.
+    /// Draws like a rasterizer that snaps vertices to a grid of N bits within a pixel; by default vertices are exact.
+    /// Interpolated values, and their derivatives, are then those of the snapped triangles; shading at vertices is not
+    /// affected.
     #[must_use]
     pub fn on_grid(mut self, bits: u32) -> Self {
         let (view, grid) = (self.scene.view, VertexGrid::new(bits));
@@ -114,28 +114,28 @@ impl Oracle {
         self
     }
 
-    /// `n` × `n` samples a pixel, averaged, in place of its centre; 1 unless said. They are the centres of the pixel's
-    /// `n` × `n` squares. `n` is taken into 1 to [`MAX_SUPERSAMPLING`](Self::MAX_SUPERSAMPLING).
+    /// Averages `n` × `n` samples a pixel, default 1. They are the centres of the pixel's `n` × `n` squares. `n` is
+    /// clamped to 1 to [`MAX_SUPERSAMPLING`](Self::MAX_SUPERSAMPLING).
     #[must_use]
     pub fn with_supersampling(self, n: u32) -> Self {
         Self { supersampling: n.clamp(1, Self::MAX_SUPERSAMPLING), ..self }
     }
 
-    /// Whether each surface, and the background, is clamped to 1 before it is blended, as 8-bit pictures are; not
-    /// unless said, and never where the camera's [`Intensity`] acts on the finished picture.
+    /// Whether each surface, and the background, is clamped to 1 before it is blended, as in 8-bit pictures. Default
+    /// `false`; ignored where the camera's [`Intensity`] acts on the finished picture.
     #[must_use]
     pub fn with_clamping(self, clamp: bool) -> Self {
         Self { clamp: clamp && !self.scene.intensity.acts_on_pictures(), ..self }
     }
 
-    /// Draws the frame after one that was divided by `before`, which counts under [`Intensity::Renormalize`] with
-    /// smoothing; unless said there is none before.
+    /// Draws the frame after one that was divided by `before`, which matters under [`Intensity::Renormalize`] with
+    /// smoothing. Default `None`: there was no frame before.
     #[must_use]
     pub fn after(self, before: Option<f64>) -> Self {
         Self { before, ..self }
     }
 
-    /// The finished picture, as the camera's policy has it.
+    /// Applies the camera's intensity policy to the picture.
     fn under_policy(&self, image: Image) -> Image {
         match self.scene.intensity {
             Intensity::Clamp => image,
@@ -148,7 +148,7 @@ impl Oracle {
         }
     }
 
-    /// Coverage samples a pixel of the pictures that are judged, as the camera says.
+    /// The camera's coverage samples a pixel, for the judge.
     pub(crate) fn samples(&self) -> Samples {
         self.scene.samples
     }

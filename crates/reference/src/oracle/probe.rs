@@ -1,4 +1,4 @@
-//! Any point of the picture.
+//! Probes a point of the picture.
 
 use bevy_ecs::entity::Entity;
 use bevy_math::DVec3;
@@ -7,23 +7,23 @@ use super::Oracle;
 use super::layers::Layers;
 use super::raster::{Hit, Primitive};
 
-/// What is seen at a point of the picture.
+/// The colour and the nearest surface at a point of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
+pub struct Probe {
     /// I, linear RGB, unclamped unless the oracle clamps, and before a policy that acts on the finished picture.
     pub color: [f64; 3],
-    /// The nearest thing; `None` where there is only background.
+    /// The nearest surface; `None` where there is only background.
     pub nearest: Option<Nearest>,
 }
 
-/// The nearest thing at a point of the picture, opaque or blended.
+/// The nearest surface at a point of the picture, opaque or blended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
     /// The object.
     pub object: Entity,
     /// Its triangle, from 0; `None` where the surface that the mesh stands for is drawn.
     pub triangle: Option<u32>,
-    /// Whether its front is seen.
+    /// Whether its front is visible.
     pub front: bool,
     /// Distance along the view in world units.
     pub depth: f64,
@@ -32,9 +32,9 @@ pub struct Nearest {
 }
 
 impl Oracle {
-    /// What is seen at a point of the picture, in pixels from its top left corner; the centre of the first pixel is
-    /// (0.5, 0.5). Beyond the picture there is no telling.
-    pub fn seen(&self, x: f64, y: f64) -> Seen {
+    /// The colour and the nearest surface at a point of the picture, in pixels from its top left corner; the centre of
+    /// the first pixel is (0.5, 0.5). Points outside the picture have no defined result.
+    pub fn probe(&self, x: f64, y: f64) -> Probe {
         let layers = self.layers_of(&self.hits(x, y));
         let ray = self.scene.view.ray(self.scene.view.at(x, y));
         let nearest = layers.visible(&self.scene).min_by(|a, b| a.depth.total_cmp(&b.depth));
@@ -45,7 +45,7 @@ impl Oracle {
             depth: hit.depth,
             position: self.scene.view.world_from_point(ray.origin + ray.direction * hit.depth),
         });
-        Seen { color: layers.color(&self.scene, self.scene.behind(ray.direction), self.clamp), nearest }
+        Probe { color: layers.color(&self.scene, self.scene.behind(ray.direction), self.clamp), nearest }
     }
 
     /// Where a point of the world lies on the picture, or beside it, in pixels from its top left corner; `None` before

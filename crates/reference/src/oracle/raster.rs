@@ -1,8 +1,8 @@
-//! Which points of the picture a triangle covers, and in which tiles to look for it.
+//! The points of the picture that a triangle covers, and the tiles that it reaches.
 
 use bevy_math::{DVec2, DVec3};
 
-use super::gather::OracleScene;
+use super::scene::OracleScene;
 use super::view::{OracleRay, PictureView};
 
 /// A point of an object that a ray meets.
@@ -12,12 +12,12 @@ pub(super) struct Hit {
     pub(super) solid: usize,
     /// Distance along the view.
     pub(super) depth: f64,
-    /// Whether the front is seen.
+    /// Whether the front is hit.
     pub(super) front: bool,
     pub(super) place: HitPoint,
 }
 
-/// Where on an object a hit lies.
+/// The position of a hit on its object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum HitPoint {
     /// On a triangle, by the weights of its corners: barycentric in space, which is perspective-correct on the picture.
@@ -27,7 +27,7 @@ pub(super) enum HitPoint {
 }
 
 impl Hit {
-    /// The triangle and the weights of its corners, unless it is the surface itself that was met.
+    /// The triangle and the weights of its corners, unless the hit is on the surface itself.
     pub(super) fn on_triangle(&self) -> Option<(u32, [f64; 3])> {
         match self.place {
             HitPoint::Triangle(triangle, weights) => Some((triangle, weights)),
@@ -45,7 +45,7 @@ pub(super) struct Primitive {
     pub(super) high: DVec2,
 }
 
-/// The picture cut into squares, and what each of them may show, in the order in which it is drawn.
+/// The picture cut into squares, and the primitives that each of them may show, in drawing order.
 #[derive(Clone, Debug)]
 pub(super) struct Tiles {
     pub(super) primitives: Vec<Primitive>,
@@ -57,7 +57,7 @@ pub(super) struct Tiles {
 /// The edge of a tile in pixels.
 pub(super) const TILE: u32 = 32;
 
-/// Boxes are widened by this many pixels, so that no rounding puts what is covered outside them.
+/// Boxes are widened by this many pixels, so that they hold all covered points despite rounding.
 const MARGIN: f64 = 1e-3;
 
 impl Tiles {
@@ -109,12 +109,12 @@ impl Tiles {
         self.lists[tile].iter().map(|&number| &self.primitives[number as usize])
     }
 
-    /// What may be seen at a point of the picture.
+    /// The primitives that may be visible at a point of the picture.
     pub(super) fn at(&self, x: f64, y: f64) -> impl Iterator<Item = &Primitive> {
         self.of_tile(self.tile(DVec2::new(x, y)))
     }
 
-    /// What may be seen between the corners of a box that is smaller than a tile.
+    /// The primitives that may be visible in a box that is smaller than a tile.
     pub(super) fn within(&self, low: DVec2, high: DVec2) -> Vec<&Primitive> {
         let mut tiles =
             [low, DVec2::new(high.x, low.y), DVec2::new(low.x, high.y), high].map(|p| self.tile(p)).to_vec();
@@ -124,7 +124,7 @@ impl Tiles {
             let primitive = &self.primitives[*number as usize];
             primitive.low.cmple(high).all() && primitive.high.cmpge(low).all()
         });
-        // In the order of drawing, each once.
+        // In drawing order, each once.
         numbers.sort_unstable();
         numbers.dedup();
         numbers.into_iter().map(|number| &self.primitives[number as usize]).collect()
@@ -173,8 +173,8 @@ pub(super) struct RayTriangle {
     normals: [DVec3; 3],
 }
 
-/// Where a ray meets a triangle.
-pub(super) struct Met {
+/// The intersection of a ray and a triangle.
+pub(super) struct Intersection {
     pub(super) weights: [f64; 3],
     pub(super) depth: f64,
     /// Whether the triangle winds counter-clockwise as seen.
@@ -187,14 +187,14 @@ impl RayTriangle {
         Self { depths: corners.map(|corner| -corner.z), normals: [b.cross(c), c.cross(a), a.cross(b)] }
     }
 
-    /// Where the line through a point of the picture meets the triangle, before the camera or behind it. The point has
-    /// homogeneous coordinates with w = 1.
+    /// The intersection of the line through a point of the picture with the triangle, before the camera or behind it.
+    /// The point has homogeneous coordinates with w = 1.
     ///
     /// The edge functions are the volumes of the tetrahedra of the origin, the point and each edge (homogeneous
     /// rasterisation, Olano and Greer 1997): they need no clipping, and are proportional to the weights. A ray through
     /// an edge belongs to the triangle that it enters when it is moved right by less than anything, or else down: the
     /// top-left rule.
-    pub(super) fn meet(&self, at: DVec3) -> Option<Met> {
+    pub(super) fn intersect(&self, at: DVec3) -> Option<Intersection> {
         let volumes = self.normals.map(|n| n.dot(at));
         let inside = |i: usize| {
             let (n, volume) = (self.normals[i], volumes[i]);
@@ -208,7 +208,7 @@ impl RayTriangle {
         let weights = volumes.map(|volume| volume / sum);
         let depth = (0..3).map(|i| weights[i] * self.depths[i]).sum();
         // The sum is the point · (b − a)×(c − a).
-        Some(Met { weights, depth, counter_clockwise: sum < 0.0 })
+        Some(Intersection { weights, depth, counter_clockwise: sum < 0.0 })
     }
 }
 
@@ -230,14 +230,14 @@ impl OracleScene {
         !self.solids[primitive.solid].triangle(primitive.index).iter().all(is_there)
     }
 
-    /// What meets rays for a triangle: its hit where a side that is shown lies between the near and the far plane. A ray
+    /// The intersection of rays with a triangle: its hit if a shown side lies between the near and the far plane. A ray
     /// is given by its point of the picture.
     pub(super) fn triangle(&self, primitive: &Primitive) -> impl Fn(DVec3) -> Option<Hit> {
         let &Primitive { solid: number, index, .. } = primitive;
         let solid = &self.solids[number];
         let edges = RayTriangle::new(&self.view, solid.triangle(index));
         move |at| {
-            let Met { weights, depth, counter_clockwise } = edges.meet(at)?;
+            let Intersection { weights, depth, counter_clockwise } = edges.intersect(at)?;
             let front = counter_clockwise != solid.mirrored;
             let seen = self.view.shows(depth) && solid.side(front).shown;
             seen.then_some(Hit { solid: number, depth, front, place: HitPoint::Triangle(index, weights) })
@@ -254,7 +254,7 @@ impl OracleScene {
     ) -> impl Iterator<Item = Hit> {
         let solid = &self.solids[number];
         let OracleRay { origin, direction: ray } = self.view.ray(at);
-        // What is met lies beyond where a ray begins.
+        // Hits lie beyond the origin of the ray.
         let begin = if self.view.near() > 0.0 { 0.0 } else { 2.0 * self.view.near() - 1.0 };
         let origin = origin + begin * ray;
         let met = solid.smooth.as_ref().map_or_else(Vec::new, |smooth| {

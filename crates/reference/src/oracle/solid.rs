@@ -11,32 +11,32 @@ use halfway_mesh::Mesh;
 use halfway_texture::{FarNormals, MapKind, SolidTexture};
 use rayon::prelude::*;
 
-use super::maps::{MapSlots, ReadMap, SolidMaps, prepared};
+use super::maps::{MapSlots, MapSource, SolidMaps, prepared};
 use super::mode::Mode;
 use crate::surface::Traced;
 
 pub(super) type Color = [f64; 3];
 
-/// What the scene says of an object, its defaults filled in.
+/// The components that decide how an object appearance, with defaults filled in.
 #[derive(Clone, Debug)]
-pub(super) struct Looks {
+pub(super) struct Appearance {
     pub(super) front: Material,
     pub(super) back: Material,
     pub(super) reflectance: Reflectance,
     pub(super) faces: Faces,
     pub(super) blend: bool,
     pub(super) terms: Terms,
-    /// Whether the colours at the vertices, if there are any, count.
+    /// Whether vertex colours are used.
     pub(super) colored: bool,
     /// The images that its mesh shows.
-    pub(super) maps: MapSlots<ReadMap>,
+    pub(super) maps: MapSlots<MapSource>,
     /// The opacity below which it is not there.
     pub(super) mask: Option<f64>,
-    /// What it is cut from.
+    /// The solid texture, if it has one.
     pub(super) cut_from: Option<SolidTexture>,
 }
 
-/// Where the surface itself is met, all that is evaluated anywhere is evaluated at the point that is seen.
+/// On the surface itself every term that is evaluated at all is evaluated at the visible point.
 fn at_the_point(frequency: Frequency) -> Frequency {
     match frequency {
         Frequency::Never => Frequency::Never,
@@ -44,9 +44,9 @@ fn at_the_point(frequency: Frequency) -> Frequency {
     }
 }
 
-/// A part of I, by what images multiply.
+/// Sums of terms, separated by the images that multiply them.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Parts {
+pub(super) struct TermSums {
     pub(super) ambient: Color,
     pub(super) diffuse: Color,
     pub(super) specular: Color,
@@ -57,11 +57,11 @@ pub(super) struct Parts {
 pub(super) struct Side {
     pub(super) coefficients: Coefficients<f64>,
     pub(super) shown: bool,
-    /// What the vertices, or the triangles, have been found to give back; filled as they are seen.
-    pub(super) shaded: Vec<OnceLock<Parts>>,
+    /// Cached shading of the vertices or of the triangles, filled on first use.
+    pub(super) shaded: Vec<OnceLock<TermSums>>,
 }
 
-/// A mesh in eye space, with what it takes to shade it.
+/// A mesh in eye space, with everything that shading it needs.
 #[derive(Clone, Debug)]
 pub(super) struct Solid {
     pub(super) entity: Entity,
@@ -69,28 +69,28 @@ pub(super) struct Solid {
     pub(super) eye_from_model: DAffine3,
     /// Model-space normals to eye space.
     normal_matrix: [[f64; 3]; 3],
-    /// The transform turns windings over.
+    /// Whether the transform flips windings.
     pub(super) mirrored: bool,
     pub(super) corners: Vec<DVec3>,
-    /// Where the corners are drawn, unless it is where they are, and whether each may be drawn elsewhere all the same.
+    /// The snapped positions of the corners, if they are snapped, and whether each may snap elsewhere.
     drawn: Option<Vec<(DVec3, bool)>>,
     pub(super) normals: Vec<DVec3>,
-    /// The colours of the vertices, where they count.
+    /// The colours of the vertices, if they are used.
     pub(super) colors: Option<Vec<DVec4>>,
     pub(super) maps: Option<SolidMaps>,
     /// The opacity below which it is not there.
     pub(super) mask: Option<f64>,
-    /// What it is cut from.
+    /// The solid texture, if it has one.
     pub(super) cut_from: Option<SolidTexture>,
     /// Front and back.
     pub(super) sides: [Side; 2],
     pub(super) faces: Faces,
     pub(super) reflectance: Reflectance,
     pub(super) blend: bool,
-    /// Where the terms of the lights are evaluated.
+    /// The frequencies of the lights' terms.
     pub(super) terms: Terms,
     given: Terms,
-    /// What is drawn in place of the triangles.
+    /// The surface that is drawn in place of the triangles.
     pub(super) smooth: Option<Smooth>,
 }
 
@@ -111,15 +111,15 @@ fn unit_determinant(m: &DMat3) -> f64 {
 }
 
 impl Solid {
-    pub(super) fn new(entity: Entity, mesh: Mesh, eye_from_model: DAffine3, looks: &Looks) -> Self {
-        let mesh = prepared(mesh, &looks.maps);
+    pub(super) fn new(entity: Entity, mesh: Mesh, eye_from_model: DAffine3, appearance: &Appearance) -> Self {
+        let mesh = prepared(mesh, &appearance.maps);
         let m = eye_from_model.matrix3;
         let determinant = unit_determinant(&m);
         let mirrored = determinant < -FLAT;
         let normal_matrix = signed_cofactors(&m, determinant, mirrored);
-        let terms = looks.terms;
-        let colors = if looks.colored { mesh.drawn_colors() } else { None };
-        let maps = SolidMaps::new(&mesh, &looks.maps, &eye_from_model, mirrored);
+        let terms = appearance.terms;
+        let colors = if appearance.colored { mesh.drawn_colors() } else { None };
+        let maps = SolidMaps::new(&mesh, &appearance.maps, &eye_from_model, mirrored);
         let evaluations = match (terms.has(Frequency::Triangle), terms.has(Frequency::Vertex)) {
             (true, _) => mesh.triangle_count(),
             (false, true) => mesh.positions().len(),
@@ -140,12 +140,15 @@ impl Solid {
             drawn: None,
             colors: colors.map(|colors| colors.iter().map(|color| color.as_dvec4()).collect()),
             maps,
-            mask: looks.mask,
-            cut_from: looks.cut_from,
-            sides: [side(&looks.front, looks.faces.shows_front()), side(&looks.back, looks.faces.shows_back())],
-            faces: looks.faces,
-            reflectance: looks.reflectance,
-            blend: looks.blend,
+            mask: appearance.mask,
+            cut_from: appearance.cut_from,
+            sides: [
+                side(&appearance.front, appearance.faces.shows_front()),
+                side(&appearance.back, appearance.faces.shows_back()),
+            ],
+            faces: appearance.faces,
+            reflectance: appearance.reflectance,
+            blend: appearance.blend,
             terms,
             given: terms,
             smooth: None,
@@ -160,8 +163,8 @@ impl Solid {
         };
     }
 
-    /// The surface behind the mesh, unless it is unknown, the mesh has colours, images or a solid, which the surface
-    /// does not, or the transform flattens it, so that no ray leads back to it.
+    /// The surface that the mesh stands for. `None` if it is unknown, if the mesh has colours, images or a solid, which
+    /// the surface does not have, or if the transform flattens it and has no inverse.
     fn smooth(&self) -> Option<Smooth> {
         let surface = self.mesh.surface()?;
         let is_flat = unit_determinant(&self.eye_from_model.matrix3).abs() <= FLAT;
@@ -170,7 +173,7 @@ impl Solid {
             .then(|| Smooth { traced: Traced::new(surface), model_from_eye: self.eye_from_model.inverse() })
     }
 
-    /// A unit normal in eye space; 0 where the transform leaves none.
+    /// A unit normal in eye space; 0 if the transform flattens it.
     pub(super) fn turned(&self, n: DVec3) -> DVec3 {
         turned(self.normal_matrix, n)
     }
@@ -184,14 +187,14 @@ impl Solid {
         &self.sides[usize::from(!front)]
     }
 
-    /// The numbers of a triangle's vertices.
+    /// The indices of a triangle's vertices.
     pub(super) fn vertices(&self, triangle: u32) -> [usize; 3] {
         let first = 3 * triangle as usize;
         [0, 1, 2].map(|corner| self.mesh.indices()[first + corner] as usize)
     }
 
-    /// The colour and opacity that the vertices give a point of a triangle, by the weights of its corners: under flat
-    /// shading the mean of its corners'.
+    /// The vertex colour and opacity at a point of a triangle, by the weights of its corners; under flat shading the
+    /// mean of the corners.
     pub(super) fn color(&self, place: Option<(u32, [f64; 3])>) -> DVec4 {
         let (Some(colors), Some((triangle, weights))) = (&self.colors, place) else { return DVec4::ONE };
         let [u, v, w] = if self.terms.has(Frequency::Triangle) { [1.0 / 3.0; 3] } else { weights };
@@ -199,23 +202,23 @@ impl Solid {
         a * u + b * v + c * w
     }
 
-    /// Draws each corner elsewhere, where it is uncertain or not.
+    /// Snaps each corner; `place` gives its position and whether that is uncertain.
     pub(super) fn draw_at(&mut self, place: impl Fn(DVec3) -> (DVec3, bool) + Sync) {
         self.drawn = Some(self.corners.par_iter().map(|p| place(*p)).collect());
     }
 
-    /// Where a triangle's corners are drawn, in eye space.
+    /// The positions at which a triangle's corners are drawn, in eye space.
     pub(super) fn triangle(&self, triangle: u32) -> [DVec3; 3] {
         let drawn = self.drawn.as_ref();
         self.vertices(triangle).map(|vertex| drawn.map_or(self.corners[vertex], |drawn| drawn[vertex].0))
     }
 
-    /// Whether a corner of a triangle may be drawn elsewhere.
+    /// Whether the snapped position of a triangle's corner is uncertain.
     pub(super) fn is_uncertain(&self, triangle: u32) -> bool {
         self.drawn.as_ref().is_some_and(|drawn| self.vertices(triangle).iter().any(|vertex| drawn[*vertex].1))
     }
 
-    /// Where a triangle's corners are lit, in eye space.
+    /// The positions at which a triangle's corners are lit, in eye space.
     pub(super) fn lit_triangle(&self, triangle: u32) -> [DVec3; 3] {
         self.vertices(triangle).map(|vertex| self.corners[vertex])
     }

@@ -6,7 +6,7 @@ use halfway_lighting::{Camera, Lens, ViewRay};
 
 use super::grid::VertexGrid;
 
-/// Where the picture is seen from, and where a point of eye space lies on it.
+/// The position and direction of the camera, and the projection of eye space onto the picture.
 ///
 /// Eye space is right-handed and has world units: the camera at the origin, looking along −Z. Depth is the distance
 /// along the view, −z.
@@ -48,7 +48,7 @@ impl PictureView {
     pub(super) fn eye_from_model(&self, world_from_model: &DAffine3) -> DAffine3 {
         DAffine3 {
             matrix3: self.eye_from_world * world_from_model.matrix3,
-            // The difference first: both are world-sized, and what is seen is near the eye.
+            // Subtract first: both are world-sized, and visible objects are near the eye.
             translation: self.eye_from_world * (world_from_model.translation - self.position),
         }
     }
@@ -108,7 +108,7 @@ impl PictureView {
         depth <= near + near.abs() * 1e-9 || depth >= far - far.abs() * 1e-9
     }
 
-    /// The direction in which a point is seen, of any length.
+    /// The direction from the viewer to a point, of any length.
     pub(super) fn sight(&self, p: DVec3) -> DVec3 {
         self.lens.sight(p.to_array()).into()
     }
@@ -134,7 +134,7 @@ impl PictureView {
         OracleRay { origin: origin.into(), direction: direction.into() }
     }
 
-    /// The direction in which a point of the picture is seen, in pixels from its top left corner.
+    /// The direction of the ray through a point of the picture, in pixels from its top left corner.
     pub(super) fn direction(&self, x: f64, y: f64) -> DVec3 {
         self.ray(self.at(x, y)).direction
     }
@@ -152,7 +152,7 @@ impl PictureView {
         let pixel = grid.place(exact);
         let at_w_1 = 2.0 * pixel / self.size - 1.0;
         let on_grid = DVec2::new(at_w_1.x, -at_w_1.y) * self.half * self.w(p);
-        // What lies in the plane of the eye lies nowhere on the picture.
+        // A point in the plane of the eye has no projection.
         if on_grid.is_finite() { (on_grid.extend(p.z), grid.is_tie(exact, self.size)) } else { (p, false) }
     }
 

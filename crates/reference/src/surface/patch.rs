@@ -114,11 +114,11 @@ impl Patches {
         let piece = &self.pieces[piece];
         let patch = &self.patches[piece.patch];
         let (beside, t_beside) = ray.beside(piece.center);
-        let sight = Sight::along(&beside);
-        if sight.misses(piece) {
+        let plane = RayPlane::along(&beside);
+        if plane.misses(piece) {
             return;
         }
-        sight.meet(patch, piece, |uv, position| {
+        plane.meet(patch, piece, |uv, position| {
             let t = t_beside + (position - beside.origin).dot(ray.direction) / ray.direction.length_squared();
             if t > 0.0 {
                 let [u, v] = uv.clamp(DVec2::ZERO, DVec2::ONE).to_array().map(Parameter::from);
@@ -142,7 +142,7 @@ impl Piece {
 }
 
 /// The plane perpendicular to a ray, in which the ray is the point (0, 0).
-struct Sight {
+struct RayPlane {
     origin: DVec3,
     axes: [DVec3; 2],
 }
@@ -165,29 +165,29 @@ enum CellCase {
     Open,
 }
 
-impl Sight {
+impl RayPlane {
     fn along(ray: &Ray) -> Self {
         let (x, y) = ray.direction.normalize().any_orthonormal_pair();
         Self { origin: ray.origin, axes: [x, y] }
     }
 
-    fn place(&self, p: DVec3) -> DVec2 {
-        self.way(p - self.origin)
+    fn project(&self, p: DVec3) -> DVec2 {
+        self.project_vector(p - self.origin)
     }
 
-    fn way(&self, d: DVec3) -> DVec2 {
+    fn project_vector(&self, d: DVec3) -> DVec2 {
         DVec2::new(d.dot(self.axes[0]), d.dot(self.axes[1]))
     }
 
     /// Whether the box around the piece's hull excludes the ray.
     fn misses(&self, piece: &Piece) -> bool {
-        let (min, max) = bounds(piece.net.points.iter().map(|&p| self.place(p)));
+        let (min, max) = bounds(piece.net.points.iter().map(|&p| self.project(p)));
         min.max_element() > piece.slack || max.min_element() < -piece.slack
     }
 
     /// Calls `found` with the parameters and the position of each point of the piece on the ray.
     fn meet(&self, patch: &BezierPatch, piece: &Piece, mut found: impl FnMut(DVec2, DVec3)) {
-        let mut cells = vec![Cell { net: piece.net.mapped(|p| self.place(p)), domain: piece.domain }];
+        let mut cells = vec![Cell { net: piece.net.mapped(|p| self.project(p)), domain: piece.domain }];
         for _ in 0..MOST_CELLS {
             let Some(cell) = cells.pop() else { return };
             match cell.verdict(piece) {
@@ -214,7 +214,7 @@ impl Sight {
         let mut uv = 0.5 * (domain.min + domain.max);
         for _ in 0..12 {
             let [p, pu, pv] = patch.jet(uv.x.into(), uv.y.into());
-            let (f, fu, fv) = (self.place(p), self.way(pu), self.way(pv));
+            let (f, fu, fv) = (self.project(p), self.project_vector(pu), self.project_vector(pv));
             let step = DVec2::new(fv.perp_dot(f), f.perp_dot(fu)) / fu.perp_dot(fv);
             uv += step;
             // Not finite if the determinant is 0: then it is not held either.

@@ -37,7 +37,7 @@ fn figures_of_four_pixels() {
     near(all.rmse, (0.35_f64 / 12.0).sqrt());
     near(comparison.range, 0.8);
     near(comparison.relative(0.4), 0.5);
-    // 0.5 is 127.5 steps, rounded away from 0; 0.4 is 102; 0.3 is 76.5. What is above 1 is clamped.
+    // 0.5 is 127.5 steps, rounded away from 0; 0.4 is 102; 0.3 is 76.5. Values above 1 are clamped.
     let steps = &comparison.steps.channels;
     assert_eq!(steps.each_ref().map(Statistics::max), [76.0, 0.0, 0.0]);
     assert_eq!((comparison.equal, comparison.counted), (0.5, 4));

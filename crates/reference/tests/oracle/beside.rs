@@ -1,4 +1,4 @@
-//! What lies beside a triangle by less than the grid of a rasterizer, before the judge.
+//! The judge on pixels beside a triangle, by less than the grid of a rasterizer.
 
 use bevy_math::{Vec2, Vec3};
 use halfway_lighting::{DirectionalLight, Shading};
@@ -24,13 +24,13 @@ const BOTTOM: f64 = 40.4985;
 
 /// The triangle's colour at a point of the picture, on it or below it.
 fn color(truth: &Oracle, x: f64, y: f64) -> [f64; 3] {
-    let [here, above] = [0.01, 0.02].map(|above| truth.seen(x, BOTTOM - above).color);
+    let [here, above] = [0.01, 0.02].map(|above| truth.probe(x, BOTTOM - above).color);
     let more = (y - (BOTTOM - 0.01)) / 0.01;
     std::array::from_fn(|k| here[k] + more * (here[k] - above[k]))
 }
 
 #[test]
-fn colors_go_on_beside_a_triangle_as_far_as_a_fine_grid_moves_it_and_no_farther() {
+fn colors_extend_beside_a_triangle_as_far_as_the_grid() {
     let mut truth = steep();
     let judged = oracle(&mut truth);
     let picture = judged.draw();
@@ -46,7 +46,7 @@ fn colors_go_on_beside_a_triangle_as_far_as_a_fine_grid_moves_it_and_no_farther(
         let verdict = float(&judged, &covered(below));
         assert!(verdict.is_within(), "{below} beside it: {verdict}");
     }
-    let brightest = judged.seen(45.5, BOTTOM - 1e-6).color[0];
+    let brightest = judged.probe(45.5, BOTTOM - 1e-6).color[0];
     assert!(row(0.0015)[0].1[0] > 1.008 * brightest, "no steeper than what the bars allow");
     for (fault, below) in [("two steps of a fine grid", 1.0 / 128.0), ("a step of a coarse grid", 1.0 / 16.0)] {
         assert_caught(&format!("colours from {fault} beside it"), &mut truth, &covered(below));

@@ -1,4 +1,4 @@
-//! Which pixels a triangle covers.
+//! The pixels that a triangle covers.
 
 use bevy_ecs::prelude::*;
 use bevy_math::{DVec3, Quat, Vec2, Vec3};
@@ -108,7 +108,7 @@ fn a_floor_runs_through_the_near_plane_and_behind_the_eye() {
         let p = ray * depth;
         let expected = (2.0..=30.0).contains(&depth) && p.x.abs() <= 50.0;
         assert_eq!(image.covered().expect("known")[(y * width + x) as usize], expected, "({x}, {y})");
-        let seen = oracle.seen(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let seen = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5);
         assert_eq!(seen.nearest.is_some(), expected);
         if let Some(nearest) = seen.nearest {
             assert!((nearest.depth - depth).abs() < 1e-12 * depth && nearest.position.distance(p) < 1e-11);
@@ -119,7 +119,7 @@ fn a_floor_runs_through_the_near_plane_and_behind_the_eye() {
 }
 
 #[test]
-fn what_is_behind_the_eye_or_before_the_near_plane_is_not_drawn() {
+fn objects_before_the_near_plane_are_not_drawn() {
     let mut stage = Stage::new();
     stage.add(wall(4.0, -2.0), (glow(1.0, 1.0, 1.0), Faces::Both));
     stage.add(wall(4.0, 0.05), glow(1.0, 1.0, 1.0));

@@ -1,4 +1,4 @@
-//! What keeps a scene from being drawn, and what it says.
+//! The errors of scenes that cannot be drawn, and their messages.
 
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
@@ -46,7 +46,7 @@ fn aimless() -> GlobalTransform {
 }
 
 #[test]
-fn each_error_names_what_and_where() {
+fn each_error_names_the_entity_and_the_field() {
     type Spoil = fn(&mut Stage);
     let rows: [(&str, Spoil, &str); 15] = [
         ("no camera", |s| assert!(s.world.despawn(s.camera)), "the scene has no camera"),

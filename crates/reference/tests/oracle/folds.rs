@@ -1,4 +1,4 @@
-//! Surfaces that the rounding of vertices folds, before the judge.
+//! The judge on surfaces that the rounding of vertices folds.
 
 use bevy_math::Vec3;
 use halfway_lighting::{AlphaMode, Material};
@@ -19,7 +19,7 @@ fn sheet(change: impl Fn(&Mesh) -> Mesh) -> Stage {
 }
 
 #[test]
-fn sheets_that_a_coarse_grid_folds_pass_and_holes_in_them_are_found() {
+fn folded_sheets_pass_and_their_holes_are_found() {
     let mut truth = sheet(Mesh::clone);
     let judged = oracle(&mut truth);
     let plain = judged.draw();
@@ -31,10 +31,11 @@ fn sheets_that_a_coarse_grid_folds_pass_and_holes_in_them_are_found() {
     // Nothing is folded where triangles are large, and nowhere does a fold open the sheet.
     let inside = |x: u32, y: u32| {
         let all = (0..9).map(|i| (f64::from(x + i % 3) - 0.5, f64::from(y + i / 3) - 0.5));
-        all.into_iter().all(|(x, y)| judged.seen(x, y).nearest.is_some())
+        all.into_iter().all(|(x, y)| judged.probe(x, y).nearest.is_some())
     };
     let inside: Vec<(u32, u32)> = all_pixels().filter(|(x, y)| *x > 0 && *y > 0 && inside(*x, *y)).collect();
-    let depth = |x: u32, y: u32| judged.seen(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest.map_or(0.0, |it| it.depth);
+    let depth =
+        |x: u32, y: u32| judged.probe(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest.map_or(0.0, |it| it.depth);
     let by_depth = |nearest: bool| {
         inside.iter().max_by(|a, b| {
             let [a, b] = [a, b].map(|(x, y)| if nearest { -depth(*x, *y) } else { depth(*x, *y) });

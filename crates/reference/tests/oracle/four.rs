@@ -1,5 +1,5 @@
-//! The judge of pictures with four samples a pixel, of what curves within a pixel: an environment in mirrors, solids,
-//! and lamps near by.
+//! The judge on pictures with four samples a pixel, with colours that curve within a pixel: environments in mirrors,
+//! solids, and nearby lamps.
 
 use bevy_color::LinearRgba;
 use bevy_math::Vec3;
@@ -18,7 +18,7 @@ const SIZE: u32 = 64;
 /// Where the four samples of a pixel lie.
 const FOUR: [[f64; 2]; 4] = [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
 
-/// A coarse ball of a mirror in light of so much strength, with four samples a pixel.
+/// A coarse mirror ball in an environment of this strength, with four samples a pixel.
 fn mirror(strength: f32, shading: Shading) -> Stage {
     let mut stage = Stage::new();
     *stage.camera() = Camera { samples: Samples::Four, ..*stage.camera() };
@@ -38,11 +38,12 @@ fn mirror(strength: f32, shading: Shading) -> Stage {
     stage
 }
 
-/// A picture of a drawer that is right: each triangle is shaded once a pixel, at the centre where it covers that, else
-/// in the middle of the samples that it covers; or everything at the pixel's first sample, whatever is there.
+/// The picture of a correct renderer: each triangle is shaded once a pixel, at the centre if it covers that, else in
+/// the middle of the samples that it covers; or, with `at_first_sample`, everything is shaded at the pixel's first
+/// sample.
 fn drawn(oracle: &Oracle, at_first_sample: bool) -> Image {
     let pixel = |x: u32, y: u32| {
-        let seen = |[dx, dy]: [f64; 2]| oracle.seen(f64::from(x) + dx, f64::from(y) + dy);
+        let seen = |[dx, dy]: [f64; 2]| oracle.probe(f64::from(x) + dx, f64::from(y) + dy);
         let triangle = |at: [f64; 2]| seen(at).nearest.map(|nearest| (nearest.object, nearest.triangle));
         let shown = FOUR.map(triangle);
         let of_sample = |number: usize| {
@@ -69,7 +70,7 @@ fn judged(truth: &mut Stage, actual: &Image) -> Verdict {
 }
 
 #[test]
-fn mirrored_environments_pass_with_four_samples_where_they_are_right() {
+fn right_mirrored_environments_pass_with_four_samples() {
     for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
         let picture = drawn(&mirror(0.8, shading).oracle(SIZE, SIZE), false);
         let verdict = judged(&mut mirror(0.8, shading), &picture);
@@ -137,14 +138,14 @@ fn floor(is_cut: bool) -> Stage {
 /// The near plane leaves a quadrangle of a triangle, which is drawn as two triangles: a pixel on their seam is shaded
 /// in both.
 #[test]
-fn seams_of_what_the_near_plane_cuts_pass_and_no_others() {
+fn only_seams_of_near_clipped_triangles_pass() {
     for is_cut in [true, false] {
         let mut truth = floor(is_cut);
         let oracle = truth.oracle(SIZE, SIZE);
         let plain = oracle.draw();
         let pixel = |i: u32| {
             let (x, y) = (i % SIZE, i / SIZE);
-            let seen = |[dx, dy]: [f64; 2]| oracle.seen(f64::from(x) + dx, f64::from(y) + dy).color;
+            let seen = |[dx, dy]: [f64; 2]| oracle.probe(f64::from(x) + dx, f64::from(y) + dy).color;
             if x != 24 || y < 40 {
                 return plain.pixel(x, y);
             }

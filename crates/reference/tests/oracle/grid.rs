@@ -28,7 +28,7 @@ fn difference(a: &Image, b: &Image) -> f64 {
 }
 
 #[test]
-fn what_is_interpolated_goes_with_the_rounded_corners() {
+fn interpolation_uses_the_rounded_corners() {
     // Corners at 2.15 and 10.15 pixels, which whole pixels bring to 2 and 10, and quarters to 2.25 and 10.25.
     let mut stage = ramp(-0.73125, 0.26875, -0.26875, 0.73125);
     let exact = stage.oracle(16, 16).draw();
@@ -73,7 +73,7 @@ fn strips() -> Stage {
 }
 
 #[test]
-fn a_picture_that_is_right_on_the_grid_alone_passes_as_a_whole_or_not_at_all() {
+fn a_picture_on_the_grid_passes_only_as_a_whole() {
     let mut stage = strips();
     let exact = stage.oracle(16, 16);
     let (expected, picture) = (exact.draw(), stage.oracle(16, 16).on_grid(4).draw());
@@ -118,8 +118,8 @@ fn a_fine_grid_is_judged_by_either_rule_too() {
     }
 }
 
-/// Corners just in the middle between two places of a grid of sixteenths go to either, each by itself; those that are a
-/// hundredth of a pixel beside it do not, and no corner goes places farther.
+/// A corner in the middle between two points of a grid of sixteenths may snap to either, independently of others; one a
+/// hundredth of a pixel beside the middle may not, and no corner snaps farther away.
 #[test]
 fn ties_go_to_either_side() {
     // Pixels are 1/8 of a unit, and half a place 1/256. One corner at a time is moved by some places from the lower
@@ -149,8 +149,8 @@ fn ties_go_to_either_side() {
     }
 }
 
-/// Some drawers cut triangles at the sides of the picture, and put the corners that this makes on the grid as well: an
-/// edge then leads through other places of it than its ends are at, and the two triangles on it are interpolated as
+/// Some renderers clip triangles at the sides of the picture and snap the new corners to the grid as well: an edge then
+/// passes through other grid points than its unclipped ends do, while the two triangles on it are interpolated as
 /// before.
 #[test]
 fn edges_of_cut_triangles_may_lead_through_other_places() {
@@ -175,7 +175,7 @@ fn edges_of_cut_triangles_may_lead_through_other_places() {
         add([ends[0], ends[1], [8.0, 20.0 - third[1]]], [0.7; 3], of_flat);
         let exact = stage.oracle(16, 16);
         let picture = stage.oracle(16, 16).on_grid(4).draw();
-        // What the slope shows there, within its edge or beyond.
+        // The slope's colour there, within its edge or beyond.
         let [a, b, c] = slope.map(|corner| corner.map(|along| (f64::from(along) * 16.0).round() / 16.0));
         let area =
             |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);

@@ -1,4 +1,4 @@
-//! The judge itself: pictures with planted faults, each of which it finds, and pictures of rasterisers that are right.
+//! The judge finds each planted fault, and passes the pictures of correct rasterisers.
 
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
@@ -27,7 +27,7 @@ pub(crate) fn float(truth: &Oracle, actual: &Image) -> Verdict {
     judge(truth, &truth.draw(), actual, Bars::FLOAT).expect("pictures of one size")
 }
 
-/// As a drawer with a grid of so many bits is judged.
+/// Judges the picture of a renderer with a grid of this many bits.
 pub(crate) fn on_grid(truth: &Oracle, bits: u32, actual: &Image) -> Verdict {
     judge_on_grid(truth, &truth.draw(), bits, actual, Bars::FLOAT).expect("pictures of one size")
 }
@@ -68,7 +68,7 @@ pub(crate) fn all_pixels() -> impl Iterator<Item = (u32, u32)> {
     (0..SIZE).flat_map(|y| (0..SIZE).map(move |x| (x, y)))
 }
 
-/// A grey material under a white light from above, to be seen by either shading.
+/// A white light from above for a grey material, visible under either shading.
 fn lamp(stage: &mut Stage) -> Entity {
     stage.world.spawn((PointLight::white(), GlobalTransform::from_xyz(2.0, 3.0, 1.0))).id()
 }
@@ -198,11 +198,11 @@ fn cracks_beside_inner_edges_are_found() {
     let picture = judged.draw();
     let triangles = |x: u32, y: u32| {
         [(0.47, 0.5), (0.53, 0.5), (0.5, 0.47), (0.5, 0.53)].map(|(dx, dy)| {
-            let nearest = judged.seen(f64::from(x) + dx, f64::from(y) + dy).nearest.expect("the wall is behind");
+            let nearest = judged.probe(f64::from(x) + dx, f64::from(y) + dy).nearest.expect("the wall is behind");
             (nearest.object, nearest.triangle)
         })
     };
-    let sphere = judged.seen(48.5, 48.5).nearest.expect("the sphere").object;
+    let sphere = judged.probe(48.5, 48.5).nearest.expect("the sphere").object;
     let cracks: Vec<(u32, u32)> = all_pixels()
         .filter(|(x, y)| {
             let found = triangles(*x, *y);
@@ -274,7 +274,7 @@ fn a_missing_triangle_is_found() {
     let mut triangles: Vec<u32> = (20..76)
         .step_by(5)
         .flat_map(|y| (20..76).step_by(7).map(move |x| (x, y)))
-        .filter_map(|(x, y)| judged.seen(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest?.triangle)
+        .filter_map(|(x, y)| judged.probe(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest?.triangle)
         .filter(|triangle| *triangle > 1)
         .collect();
     triangles.dedup();
@@ -301,7 +301,7 @@ fn an_outline_moved_by_a_quarter_of_a_pixel_is_found() {
         for by in [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y] {
             let picture = oracle(&mut scene(corner, 0.25 * by)).draw();
             assert_caught(&format!("corner {corner} moved by {by}"), &mut truth, &picture);
-            // What a grid of four bits allows passes.
+            // A shift within a grid of four bits passes.
             let picture = oracle(&mut scene(corner, 0.06 * by)).draw();
             let verdict = float(&oracle(&mut truth), &picture);
             assert!(verdict.is_within(), "corner {corner}: {verdict}");
@@ -331,7 +331,7 @@ fn an_exponent_one_hundredth_off_is_found() {
 }
 
 #[test]
-fn the_near_side_of_a_blended_object_before_its_far_side_is_found() {
+fn a_wrong_order_of_blended_sides_is_found() {
     let [near, far] = [(0.9, 0.1), (0.1, 0.9)].map(|(red, green)| Material { opacity: 0.5, ..glow(red, green, 0.2) });
     let mesh = ball(Vec3::new(0.0, 0.0, -2.0), 1.0, 32, 16);
     let mut truth = Stage::new();
@@ -399,7 +399,7 @@ fn bytes_rounded_after_each_blended_layer_pass() {
             let mut stage = panes(&[]);
             let mut picture = oracle(&mut stage).draw().pixel(50, 40).map(rounded);
             for count in 1..=opacities.len() {
-                // What a pane adds is found from pictures with and without it.
+                // Pictures with and without a pane give its contribution.
                 let [before, after] =
                     [count - 1, count].map(|n| oracle(&mut panes(&opacities[..n])).draw().pixel(50, 40));
                 let opacity = f64::from(opacities[count - 1]);
@@ -424,7 +424,7 @@ fn black_pixels_between_facets_are_found() {
     let picture = judged.draw();
     // Where triangles are slivers, near the outline, but not on it.
     let is_inside = |x: u32, y: u32| {
-        let corner = |dx: f64, dy: f64| judged.seen(f64::from(x) + dx, f64::from(y) + dy).nearest.is_some();
+        let corner = |dx: f64, dy: f64| judged.probe(f64::from(x) + dx, f64::from(y) + dy).nearest.is_some();
         corner(0.2, 0.5) && corner(0.8, 0.5) && corner(0.5, 0.2) && corner(0.5, 0.8)
     };
     let inside: Vec<_> = all_pixels().filter(|(x, y)| is_inside(*x, *y)).collect();
@@ -435,10 +435,10 @@ fn black_pixels_between_facets_are_found() {
     }
 }
 
-/// A picture of four samples a pixel: each sample's triangle shaded in the middle of the samples that it covers, or, as
-/// a renderer does that forgets `centroid`, at the pixel's centre, be it inside the triangle or not.
+/// A picture with four samples a pixel: each sample's triangle is shaded in the middle of the samples that it covers;
+/// or, as by a renderer that forgets `centroid`, at the pixel's centre, inside the triangle or not.
 fn four_samples(oracle: &Oracle, extrapolated: bool) -> Image {
-    let seen = |x: u32, y: u32, [dx, dy]: [f64; 2]| oracle.seen(f64::from(x) + dx, f64::from(y) + dy);
+    let seen = |x: u32, y: u32, [dx, dy]: [f64; 2]| oracle.probe(f64::from(x) + dx, f64::from(y) + dy);
     let pixel = |(x, y): (u32, u32)| {
         let of_sample = |at: [f64; 2]| {
             let here = seen(x, y, at);
@@ -460,7 +460,7 @@ fn four_samples(oracle: &Oracle, extrapolated: bool) -> Image {
 }
 
 #[test]
-fn what_only_the_centres_meet_is_found_with_four_samples() {
+fn an_object_only_at_centres_is_found_with_four_samples() {
     // A bar from top to bottom between the samples of column 48: the oracle's own picture, of the centres, shows it.
     let mut truth = Stage::new();
     *truth.camera() = Camera { samples: Samples::Four, ..*truth.camera() };

@@ -30,7 +30,7 @@ fn parallel_rays_meet_a_slanted_wall_where_it_is() {
             // The picture is twice as wide as high: a pixel is a fifth of a unit.
             let p = DVec3::new(across / 5.0 - 4.0, 2.0 - down / 5.0, 0.0);
             let expected = p.with_z(-3.0 + 0.5 * p.x - 0.25 * p.y);
-            let nearest = oracle.seen(across, down).nearest;
+            let nearest = oracle.probe(across, down).nearest;
             if -expected.z < f64::from(near) {
                 assert!(nearest.is_none());
                 continue;

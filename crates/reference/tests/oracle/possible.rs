@@ -39,7 +39,7 @@ fn inside_a_surface_there_is_one_color() {
 }
 
 #[test]
-fn an_edge_within_the_radius_shows_both_sides_and_one_outside_it_does_not() {
+fn only_an_edge_within_the_radius_shows_both_sides() {
     for (offset, is_edge) in [(0.9, true), (-0.9, true), (1.1, false), (-1.1, false)] {
         let mut stage = Stage::new();
         let at = CENTRE + offset * RADIUS as f32 * PIXEL;
@@ -72,7 +72,7 @@ fn halves(gap: f32) -> Mesh {
 }
 
 #[test]
-fn what_is_behind_an_inner_edge_is_never_seen() {
+fn nothing_shows_through_an_inner_edge() {
     for (gap, colors) in [(0.0, 1), (1e-4, 2)] {
         let mut stage = Stage::new();
         stage.add(halves(gap), glow(1.0, 0.0, 0.0));
@@ -89,7 +89,7 @@ fn what_is_behind_an_inner_edge_is_never_seen() {
 }
 
 #[test]
-fn no_pixel_inside_a_closed_outline_shows_what_is_behind() {
+fn nothing_shows_through_a_closed_mesh() {
     // 96 × 48: triangles of less than a pixel, with poles and a seam, before a wall.
     let mut stage = Stage::new();
     let sphere =
@@ -98,7 +98,7 @@ fn no_pixel_inside_a_closed_outline_shows_what_is_behind() {
     let oracle = stage.oracle(64, 64);
     let mut inside = 0;
     for (x, y) in (0..64).flat_map(|y| (0..64).map(move |x| (x, y))) {
-        let at = |i: u32, j: u32| oracle.seen(f64::from(x) + f64::from(i) / 4.0, f64::from(y) + f64::from(j) / 4.0);
+        let at = |i: u32, j: u32| oracle.probe(f64::from(x) + f64::from(i) / 4.0, f64::from(y) + f64::from(j) / 4.0);
         let corners = (0..5).flat_map(|j| (0..5).map(move |i| (i, j)));
         let objects: Vec<_> = corners.map(|(i, j)| at(i, j).nearest.expect("the wall is behind").object).collect();
         let found = oracle.possible(x, y, RADIUS);

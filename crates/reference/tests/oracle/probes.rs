@@ -1,4 +1,4 @@
-//! Any point of the picture.
+//! Probes of points of the picture.
 
 use bevy_math::DVec3;
 use bevy_transform::components::GlobalTransform;
@@ -18,7 +18,7 @@ fn the_nearest_thing_has_its_name_side_and_place() {
     let oracle = stage.oracle(8, 8);
     for (x, y, object, front, depth) in [(1, 2, near, false, 3.5), (6, 2, far, true, 5.5)] {
         let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let nearest = oracle.seen(centre.0, centre.1).nearest.expect("a wall");
+        let nearest = oracle.probe(centre.0, centre.1).nearest.expect("a wall");
         assert_eq!((nearest.object, nearest.front), (object, front));
         assert!((nearest.depth - depth).abs() < 1e-12);
         assert!(nearest.position.distance(eye + depth * ray(x, y, 8, 8)) < 1e-12);

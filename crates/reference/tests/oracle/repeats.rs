@@ -1,4 +1,4 @@
-//! The same scene gives the same picture, however it is asked for; and drawing can be watched and stopped.
+//! The same scene gives the same picture however it is drawn, and drawing reports progress and can be stopped.
 
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -35,12 +35,12 @@ fn crowd() -> Stage {
 }
 
 #[test]
-fn a_point_of_the_picture_is_what_the_pixel_is() {
+fn a_probe_at_a_pixels_centre_matches_the_pixel() {
     let (width, height) = (90, 60);
     let oracle = crowd().oracle(width, height);
     let image = oracle.draw();
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-        let seen = oracle.seen(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let seen = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5);
         assert_same(&format!("({x}, {y})"), seen.color, image.pixel(x, y));
         assert_eq!(seen.nearest.is_some(), image.covered().expect("known")[(y * width + x) as usize]);
     }

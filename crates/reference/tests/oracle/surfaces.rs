@@ -1,4 +1,4 @@
-//! The surface that a mesh stands for, in its place.
+//! The surface that a mesh stands for, drawn in place of the mesh.
 
 use bevy_math::{Affine3A, DMat3, DVec3, Mat3, Vec3};
 use bevy_transform::components::GlobalTransform;
@@ -79,7 +79,7 @@ fn the_inside_of_a_sphere_is_its_back() {
     let oracle = stage.oracle(SIZE, SIZE).with_mode(Mode::Surface);
     for (x, y) in each_pixel() {
         let expected = sphere(Mat3::IDENTITY, ray(x, y, SIZE, SIZE));
-        let seen = oracle.seen(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let seen = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5);
         if let (Some([_, (depth, n)]), Some(nearest)) = (expected, seen.nearest) {
             let p = ray(x, y, SIZE, SIZE) * depth;
             assert!(!nearest.front && nearest.triangle.is_none());
@@ -127,8 +127,8 @@ fn a_blended_surface_has_no_seams() {
     let oracle = stage.oracle(25, 25).with_mode(Mode::Surface);
     let mut layers = 0.0;
     for y in (0..25).map(|y| f64::from(y) + 0.5) {
-        let beside = oracle.seen(12.5 + 1e-4, y).color;
-        assert_close(&format!("row {y}"), oracle.seen(12.5, y).color, beside);
+        let beside = oracle.probe(12.5 + 1e-4, y).color;
+        assert_close(&format!("row {y}"), oracle.probe(12.5, y).color, beside);
         layers -= (1.0 - beside[0]).log2();
     }
     assert!(layers > 16.0, "the column shows hardly anything: {layers} layers");
@@ -186,7 +186,7 @@ fn the_mode_can_be_changed_back() {
 }
 
 #[test]
-fn a_teapot_before_and_around_the_eye_is_seen_the_same_by_points_and_pixels() {
+fn probes_of_a_teapot_around_the_eye_match_its_pixels() {
     for at in [Vec3::new(0.0, -1.0, -5.0), Vec3::new(0.0, -1.0, 0.0)] {
         let mut stage = Stage::new();
         let looks = (Material::BRASS, Faces::Both);
@@ -195,7 +195,7 @@ fn a_teapot_before_and_around_the_eye_is_seen_the_same_by_points_and_pixels() {
         let oracle = stage.oracle(SIZE, SIZE).with_mode(Mode::Surface);
         let image = oracle.draw();
         for (x, y) in each_pixel() {
-            let seen = oracle.seen(f64::from(x) + 0.5, f64::from(y) + 0.5);
+            let seen = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5);
             assert_same(&format!("({x}, {y})"), seen.color, image.pixel(x, y));
         }
         let covered = image.covered().expect("known").iter().filter(|covered| **covered).count();

@@ -76,12 +76,12 @@ fn a_sphere_pressed_to_a_line_or_a_point_is_not_there() {
 }
 
 #[test]
-fn shear_and_unequal_scale_turn_normals_by_the_inverse_transpose() {
+fn sheared_normals_use_the_inverse_transpose() {
     let shear = Mat3::from_cols(Vec3::new(2.0, 0.0, 0.0), Vec3::new(0.5, 1.0, 0.25), Vec3::new(0.0, 0.75, 3.0));
     let corners = [Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, -1.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
     for mirror in [1.0, -1.0] {
         let m = shear * Mat3::from_diagonal(Vec3::new(mirror, 1.0, 1.0));
-        // What a transform does to a plane, it does to three of its points.
+        // A transform maps a plane as it maps three of its points.
         let [a, b, c] = corners.map(|corner| (m * corner).as_dvec3());
         let n = (b - a).cross(c - a).normalize() * f64::from(mirror);
         let toward = DVec3::new(0.6, 0.0, 0.8);

@@ -146,7 +146,7 @@ fn phong_interpolates_the_point() {
 }
 
 #[test]
-fn flat_shades_the_centroid_with_the_normal_of_the_side_that_is_seen() {
+fn flat_shades_the_centroid_with_the_visible_sides_normal() {
     let [a, b, c] = CORNERS;
     let centroid = CORNERS.map(Vec3::as_dvec3).into_iter().sum::<DVec3>() / 3.0;
     let n = (b - a).as_dvec3().cross((c - a).as_dvec3()).normalize();
@@ -229,7 +229,7 @@ fn opposite_normals_fall_back_to_the_triangle() {
 }
 
 #[test]
-fn the_camera_gives_what_objects_do_not_say() {
+fn objects_inherit_the_cameras_defaults() {
     let mut stage = Stage::new();
     let flat = stage.add(triangle(CORNERS, Some([Vec3::X; 3])), chalk(1.0));
     stage.sun(axial(1.0), Vec3::NEG_Z);

@@ -8,11 +8,11 @@ use halfway_lighting::{Encoding, Intensity};
 use halfway_raster::{ClearTiles, Output, PixelFormat, RasterError, Rasterizer};
 use image::{Rgba32FImage, RgbaImage};
 
-/// While this resource is there, what the CPU draws has this size and is for a window, and not for
-/// [`Headless`](crate::Headless). Whoever owns the window inserts it, and shows the [`Canvas`] after each frame.
+/// While this resource exists, the CPU draws pictures of this size for a window instead of for
+/// [`Headless`](crate::Headless). The window's runner inserts it, and shows the [`Canvas`] after each frame.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CanvasTarget {
-    /// Width and height in physical pixels; nothing is drawn where one is 0.
+    /// Width and height in physical pixels; nothing is drawn if one is 0.
     pub size: UVec2,
 }
 
@@ -23,9 +23,9 @@ pub struct Canvas {
     /// One of them is empty.
     bytes: Vec<u8>,
     floats: Vec<f32>,
-    /// The drawn values that a policy turns into the picture, where it acts on finished ones; else empty.
+    /// The drawn values before a policy that acts on the finished picture; empty without one.
     drawn_floats: Vec<f32>,
-    /// The divisor of the last picture, where there was one.
+    /// The divisor of the last picture, if it was divided.
     divisor: Option<f32>,
     clear_tiles: ClearTiles,
     /// Whether it holds a frame.
@@ -37,7 +37,7 @@ const CHANNELS: usize = 4;
 
 impl Canvas {
     /// Width and height in pixels, and the bytes of the newest frame: red, green, blue and 255, row by row from the
-    /// top. `None` where there is no frame, or one in floating point.
+    /// top. `None` without a frame, or for one in floating point.
     pub fn bytes(&self) -> Option<(UVec2, &[u8])> {
         (self.drawn && !self.bytes.is_empty()).then_some((self.size, &self.bytes[..]))
     }
@@ -49,7 +49,7 @@ impl Canvas {
     pub(crate) fn begin(&mut self, size: UVec2, is_float: bool, is_toned: bool) -> Result<(), RenderError> {
         self.drawn = false;
         if size != self.size || is_toned == self.drawn_floats.is_empty() {
-            // The memory, too, may be another.
+            // The memory may have moved, too.
             self.clear_tiles = ClearTiles::default();
             self.divisor = None;
         }
@@ -82,7 +82,7 @@ impl Canvas {
         (output, &mut self.clear_tiles)
     }
 
-    /// Makes the picture of what was drawn, where a policy acts on it.
+    /// Applies a policy that acts on the finished picture.
     ///
     /// # Errors
     /// Those of the rasterizer.
@@ -104,7 +104,7 @@ impl Canvas {
         Ok(())
     }
 
-    /// Says whether the frame has been drawn.
+    /// Records whether the frame was drawn.
     pub(crate) fn end(&mut self, drawn: bool) {
         self.drawn = drawn;
     }
@@ -112,7 +112,7 @@ impl Canvas {
     /// A copy of the newest frame.
     ///
     /// # Errors
-    /// [`RenderError::NoPicture`] where there is none, [`RenderError::Memory`].
+    /// [`RenderError::NoPicture`] without a frame, [`RenderError::Memory`].
     pub(crate) fn picture(&self) -> Result<Picture, RenderError> {
         let UVec2 { x, y } = self.size;
         let picture = match (self.drawn, self.floats.is_empty()) {
@@ -126,7 +126,7 @@ impl Canvas {
 
 fn resize<T: Copy + Default>(memory: &mut Vec<T>, count: usize) -> Result<(), RenderError> {
     if memory.capacity() < count || memory.capacity() / 4 > count {
-        // Its contents are drawn over.
+        // Its contents will be overwritten.
         *memory = Vec::new();
         reserve(memory, count)?;
     }

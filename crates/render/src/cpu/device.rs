@@ -1,17 +1,16 @@
-//! The CPU as what draws.
+//! The CPU as an adapter.
 
 use bevy_ecs::prelude::Resource;
 use halfway_frame::error::RenderError;
 use halfway_raster::{RasterError, RasterOptions, Rasterizer, VectorWidth, WIDTH_VARIABLE};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The CPU, drawing by itself: no driver, no device, and the same bits on every machine. Opened by the first frame
-/// where
-/// [`AdapterChoice`](crate::AdapterChoice) says so, or inserted; clones share threads and memory, and may be given to
-/// several Apps. While there is a [`Gpu`](crate::Gpu) too, that one draws.
+/// The CPU without a driver: no device, and the same bits on every machine. Opened by the first frame if
+/// [`AdapterChoice`](crate::AdapterChoice) selects it, or inserted; clones share threads and memory, and may be given
+/// to several Apps. If the world also has a [`Gpu`](crate::Gpu), that one draws.
 ///
-/// It draws with vectors as wide as the CPU has, unless the environment variable `HALFWAY_SIMD` says `avx512`, `avx2`,
-/// `neon` or `plain`, and with as many threads as the process may run at once.
+/// It uses the widest SIMD level of the CPU, unless the environment variable `HALFWAY_SIMD` names another (`avx512`,
+/// `avx2`, `neon` or `plain`), and as many threads as the process may run at once.
 #[derive(Resource, Clone)]
 pub struct Cpu {
     rasterizer: Arc<Mutex<Rasterizer>>,
@@ -22,19 +21,19 @@ impl Cpu {
     /// Its name for [`AdapterChoice`](crate::AdapterChoice), in full or before a colon.
     pub const NAME: &str = "cpu";
 
-    /// The bits of the grid within a pixel to which vertices are rounded.
+    /// The bits of the sub-pixel grid that vertices are snapped to.
     pub const SUB_PIXEL_BITS: u32 = 8;
 
-    /// With the widest vectors of this CPU, or those that `HALFWAY_SIMD` names.
+    /// Opens the CPU with its widest SIMD level, or the one that `HALFWAY_SIMD` names.
     ///
     /// # Errors
-    /// [`RenderError::NoVectors`] where the variable names others, [`RenderError::NoDevice`] where the system refuses
-    /// threads.
+    /// [`RenderError::NoVectors`] if the variable names a level that the CPU lacks, [`RenderError::NoDevice`] if the
+    /// system refuses threads.
     pub fn open() -> Result<Self, RenderError> {
         Self::drawing_with(VectorWidth::from_environment().map_err(|error| no_vectors(WIDTH_VARIABLE, error))?)
     }
 
-    /// With the vectors of that name.
+    /// Opens the CPU with the SIMD level of that name.
     ///
     /// # Errors
     /// [`RenderError::NoVectors`] or [`RenderError::NoDevice`].
@@ -49,17 +48,17 @@ impl Cpu {
         Ok(Self { rasterizer: Arc::new(Mutex::new(rasterizer)), width })
     }
 
-    /// The name of its vectors: `avx512`, `avx2`, `neon` or `plain`.
+    /// The name of its SIMD level: `avx512`, `avx2`, `neon` or `plain`.
     pub fn vectors(&self) -> String {
         self.width.to_string()
     }
 
-    /// One line for people, in the form of a graphics adapter's: `avx2 (cpu, software)`.
+    /// A line of description, in the form of a graphics adapter's: `avx2 (cpu, software)`.
     pub fn describe(&self) -> String {
         format!("{} ({}, software)", self.width, Self::NAME)
     }
 
-    /// To draw with; one App at a time.
+    /// The rasterizer, for one App at a time.
     pub(crate) fn rasterizer(&self) -> MutexGuard<'_, Rasterizer> {
         self.rasterizer.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,4 +1,4 @@
-//! View and Draw: the canvas is made ready, and the pass is drawn into it.
+//! The sets View and Draw: prepares the canvas, and draws the pass into it.
 
 use crate::cpu::canvas::{Canvas, CanvasTarget};
 use crate::cpu::device::Cpu;
@@ -28,7 +28,7 @@ impl Backend for Cpu {
         true
     }
 
-    /// The same for all draws of which only a shader would be specialised for the difference.
+    /// The same for all draws that differ only in the specialisation of a shader.
     fn admit(&mut self, key: DrawKey) -> DrawKey {
         DrawKey {
             local_viewer: false,
@@ -45,7 +45,7 @@ impl Backend for Cpu {
     }
 }
 
-/// Makes the memory ready that the frame is drawn into.
+/// Prepares the memory that the frame is drawn into.
 pub(crate) fn prepare(
     headless: Res<Headless>,
     window: Option<Res<CanvasTarget>>,
@@ -56,7 +56,7 @@ pub(crate) fn prepare(
     mut report: ResMut<FrameReport>,
 ) {
     canvas.end(false);
-    // The view has said so.
+    // The view has reported this already.
     if size.0.min_element() == 0 {
         return;
     }

@@ -1,4 +1,4 @@
-//! Errors of the rasterizer as errors of a frame.
+//! Converts errors of the rasterizer to errors of a frame.
 
 use halfway_frame::error::RenderError;
 use halfway_raster::RasterError;

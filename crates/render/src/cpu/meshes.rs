@@ -1,4 +1,4 @@
-//! Upload: meshes as the rasterizer takes them.
+//! The set Upload: cuts meshes into pieces for the rasterizer.
 
 use crate::cpu::error::raster_error;
 use bevy_ecs::prelude::*;
@@ -12,12 +12,12 @@ use halfway_mesh::Mesh;
 use halfway_raster::{Pieces, RasterError, TriangleOrder, VertexLists};
 use std::sync::Arc;
 
-/// The meshes that have been drawn, in pieces, until they change or go.
+/// The drawn meshes in pieces, until they change or are removed.
 #[derive(Resource, Default)]
 pub(crate) struct MeshPieces(DrawnMeshes<Arc<Pieces>>);
 
-/// Cuts the meshes that are drawn and not there yet, unless that was done with their levels of detail. What the memory is refused
-/// for is not drawn, and its error is in the report, every frame anew.
+/// Cuts the drawn meshes that are not cut yet, unless that was done with their levels of detail. A mesh whose memory is
+/// refused is not drawn, and its error is in the report of every frame.
 pub(crate) fn make_ready(
     batches: Res<Batches>,
     mut geometries: ResMut<Geometries>,
@@ -43,8 +43,8 @@ impl MeshPieces {
     }
 }
 
-/// The pieces of a mesh with levels of detail, for draws without colors and images; `None` where they cannot be made,
-/// which is told once they are drawn.
+/// The pieces of a mesh with levels of detail, for draws without colors and images; `None` if they cannot be made,
+/// which is reported once they are drawn.
 pub(crate) fn of_levels(mesh: &Mesh, MeshTriangles { corners, patches, .. }: &MeshTriangles) -> Option<Prepared> {
     let pieces = pieces(mesh, patches, corners.as_flattened(), Form::default()).ok()?;
     Some(Arc::new(pieces))

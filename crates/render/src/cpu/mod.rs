@@ -1,4 +1,4 @@
-//! How the CPU draws batches: meshes are cut into pieces, the frame's records become a pass, and the pass is drawn.
+//! Draws batches on the CPU: cuts meshes into pieces, turns the frame's records into a pass, and draws the pass.
 
 pub(crate) mod canvas;
 pub(crate) mod device;

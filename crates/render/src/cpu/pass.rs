@@ -1,5 +1,4 @@
-//! Upload: what the passes of opaque and blended objects draw, as the rasterizer takes it. It draws the sky with them,
-//! tile by tile.
+//! The set Upload: builds the rasterizer's pass for opaque and blended objects. It also draws the sky, tile by tile.
 
 use crate::cpu::meshes::MeshPieces;
 use bevy_ecs::prelude::*;
@@ -16,13 +15,13 @@ use halfway_mesh::Mesh;
 use halfway_raster::{DrawCall, DrawMaps, MapCall, MapData};
 use halfway_texture::Texture;
 
-/// The lists of a pass that it alone has. Their memory is kept from frame to frame.
+/// The lists that only the rasterizer's pass has. Their memory is kept from frame to frame.
 #[derive(Resource, Default)]
 pub(crate) struct PassLists {
     pub(crate) meshes: Vec<(AssetId<Mesh>, Form)>,
     pub(crate) draws: Vec<DrawCall>,
     pub(crate) maps: Vec<MapData>,
-    /// Of each set of images the number of the first.
+    /// The index of each set's first image.
     firsts: Vec<u32>,
 }
 
@@ -39,7 +38,7 @@ pub(crate) fn fill(
 }
 
 impl PassLists {
-    /// The images of all sets, one after the other, and where those of each begin.
+    /// Collects the images of all sets, one after the other, and the index of each set's first.
     fn fill_maps(&mut self, sets: &[MapsUse], textures: &Assets<Texture>) {
         self.maps.clear();
         self.firsts.clear();
@@ -50,7 +49,7 @@ impl PassLists {
         }
     }
 
-    /// The images that a draw takes of a set, whose images follow each other in the order of their kinds.
+    /// The images that a draw uses of a set, in the order of their kinds.
     fn draw_maps(&self, key: &DrawKey, of: &MapsUse, number: u32) -> DrawMaps {
         let mut next = self.firsts[number as usize - 1];
         let calls = std::array::from_fn(|slot| {
@@ -84,7 +83,7 @@ impl PassLists {
             let of_set = lit.table.maps.get((maps as usize).wrapping_sub(1)).filter(|_| key.is_mapped());
             let maps = of_set.map(|of| self.draw_maps(&key, of, maps));
             let call = DrawCall { mesh: self.meshes.len() as u32 - 1, maps, ..call(&key) };
-            for draw in batches.draws.of(group) {
+            for draw in batches.draws.in_group(group) {
                 let IndexedDraw { indices, instances } = draw.clone();
                 self.draws.push(DrawCall { indices, instances, ..call.clone() });
             }

@@ -4,7 +4,7 @@ use crate::cpu::canvas::Canvas;
 use halfway_lighting::{Camera, Intensity};
 use halfway_raster::{RasterError, Rasterizer};
 
-/// How often a policy passes over the memory of a picture.
+/// The number of passes of a policy over a picture.
 pub(crate) fn passes(policy: Intensity) -> u32 {
     match policy {
         Intensity::Clamp => 0,
@@ -13,7 +13,7 @@ pub(crate) fn passes(policy: Intensity) -> u32 {
     }
 }
 
-/// Makes the picture of what was drawn.
+/// Applies the camera's policy to the drawn picture.
 pub(crate) fn finish(canvas: &mut Canvas, rasterizer: &Rasterizer, camera: &Camera) -> Result<(), RasterError> {
     canvas.finish(rasterizer, camera.intensity, camera.encoding)
 }

@@ -22,7 +22,7 @@ use halfway_mesh::Mesh3d;
 #[derive(Resource, Default)]
 pub(crate) struct Target {
     attachments: Option<Attachments>,
-    /// Where the camera's policy acts on the finished picture.
+    /// The camera's policy, if it acts on the finished picture.
     pub(crate) passes: Option<PicturePasses>,
     pub(crate) frame: Option<FramePicture>,
 }
@@ -79,14 +79,14 @@ pub(crate) struct FramePart {
     pub(crate) depth: Option<wgpu::TextureView>,
 }
 
-/// The destination of a frame.
+/// The destination of the picture.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Delivery {
     /// It can be read back.
     Read,
     /// A window shows it.
     Present(wgpu::SurfaceTexture),
-    /// An engine has it drawn, by [`encode_frame`](crate::encode_frame).
+    /// An engine draws it, by [`encode_frame`](crate::encode_frame).
     Encode,
 }
 
@@ -164,7 +164,7 @@ pub(crate) fn prepare(
     mut commands: Commands,
 ) {
     target.frame = None;
-    // The view has said so.
+    // The view has reported it.
     if size.0.min_element() == 0 {
         return;
     }

@@ -1,4 +1,4 @@
-//! The graphics adapter that a choice means.
+//! Selects the graphics adapter of a choice.
 
 use crate::adapter::Adapter;
 use crate::choice::{ANY, AdapterChoice, variable};
@@ -10,8 +10,8 @@ use halfway_frame::error::RenderError;
 use std::path::Path;
 
 impl AdapterChoice {
-    /// Opens a graphics adapter, for pictures without a window: a software one where there is no other, and never the
-    /// CPU without a driver.
+    /// Opens a graphics adapter, for pictures without a window: a software one if there is no other, and never the CPU
+    /// without a driver.
     ///
     /// # Errors
     /// [`RenderError::NoAdapter`], [`RenderError::NoAdapterAmong`], [`RenderError::NoSuchAdapter`] or
@@ -21,12 +21,12 @@ impl AdapterChoice {
         Gpu::of_adapter(instance, adapter)
     }
 
-    /// Opens what draws in a window: a graphics adapter with a surface that it can present to, or the CPU, which needs
-    /// none. `display` is the display of the surface's window, which OpenGL has to know; `make_surface` makes the
+    /// Opens the adapter for a window: a graphics adapter with a surface that it can present to, or the CPU, which
+    /// needs none. `display` is the display of the surface's window, which OpenGL requires; `make_surface` makes the
     /// surface from an instance, and may be called once a backend.
     ///
     /// # Errors
-    /// As [`open`](Self::open), and what `make_surface` could not do.
+    /// Those of [`open`](Self::open) and of `make_surface`.
     pub fn open_for<E: From<RenderError>>(
         &self,
         display: &(impl wgpu::wgt::WgpuHasDisplayHandle + Clone),
@@ -48,7 +48,7 @@ impl AdapterChoice {
                         return Ok((Adapter::Gpu(Gpu::of_adapter(instance, adapter)?), Some(surface)));
                     }
                 }
-                // Without any driver there is no surface either, and the driver is what to say something about.
+                // Without any driver there is no surface either, and the missing driver is the error to report.
                 Err(error) if enumerate(&instance, backends).iter().any(|there| wanted.takes(there)) => {
                     refused = Some(error);
                 }
@@ -62,7 +62,7 @@ impl AdapterChoice {
         }
     }
 
-    /// The adapter where the name does not ask for the CPU.
+    /// Opens the adapter if the name does not select the CPU.
     pub(crate) fn open_other(&self) -> Result<Adapter, RenderError> {
         match self.wanted(variable).or_the_cpu(self, variable).find() {
             Err(RenderError::NoAdapter) => Cpu::open().map(Adapter::Cpu),
@@ -116,11 +116,11 @@ impl Gpu {
     }
 }
 
-/// The variable that says which backends may be asked.
+/// The variable that limits the backends.
 const BACKEND: &str = "WGPU_BACKEND";
 
-/// Whether there may be a graphics card: on Linux, whether the kernel shows one among its devices. These are the nodes
-/// of its own drivers, of NVIDIA's, of WSL, and of the makers of phones' and boards' chips.
+/// Whether there may be a graphics card: on Linux, whether the kernel lists one among its devices. The nodes are those
+/// of its own drivers, of NVIDIA's, of WSL, and of mobile GPUs.
 fn may_have_hardware(devices: &Path) -> bool {
     const NODES: [&str; 7] = ["nvidia", "dxg", "kgsl", "mali", "pvr", "galcore", "vchiq"];
     let names = |folder: &Path| -> Vec<String> {
@@ -132,29 +132,29 @@ fn may_have_hardware(devices: &Path) -> bool {
         || names(&devices.join("dri")).iter().any(|name| name.starts_with("renderD"))
 }
 
-/// The variables that say which Vulkan drivers there are.
+/// The variables that limit the Vulkan drivers.
 const DRIVERS: [&str; 2] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"];
 
-/// The backends that are asked, and those that are asked next where none answers.
+/// The backends that are asked first, and those that are asked if no adapter is found.
 const ROUNDS: [wgpu::Backends; 2] = [wgpu::Backends::PRIMARY, wgpu::Backends::GL];
 
-/// The adapter that is wanted.
+/// The requested adapter.
 #[derive(Debug, PartialEq, Eq)]
 struct Wanted {
     name: Option<AdapterName>,
     rounds: Vec<wgpu::Backends>,
     /// The limit that `WGPU_BACKEND` sets.
     limited: Option<String>,
-    /// Only hardware will do.
+    /// Whether only hardware is accepted.
     hardware: bool,
 }
 
 impl Wanted {
-    /// Instead of a software adapter that nobody asks for the CPU is to draw.
+    /// Prefers the CPU to a software adapter that was not requested.
     fn or_the_cpu(self, choice: &AdapterChoice, variable: impl Fn(&str) -> Option<String>) -> Self {
         let named = choice.given(&variable).is_some() || self.name.is_some() || self.limited.is_some();
         let hardware = !named && !DRIVERS.iter().any(|name| variable(name).is_some());
-        // Asking would load what software drivers there are, which takes longer than a first frame.
+        // Asking would load software drivers, which takes longer than a first frame.
         let rounds = if hardware && !may_have_hardware(Path::new("/dev")) { Vec::new() } else { self.rounds };
         Self { rounds, hardware, ..self }
     }
@@ -195,7 +195,7 @@ impl Wanted {
     fn missing(&self) -> RenderError {
         match (&self.name, &self.limited) {
             (Some(name), limited) => {
-                // The adapters to choose from by name; the limit goes for a name of wgpu's own only.
+                // The adapters to choose from by name; the limit applies only to a name of wgpu's own variable.
                 let rounds = if limited.is_some() { &self.rounds[..] } else { &ROUNDS };
                 RenderError::NoSuchAdapter { wanted: name.0.clone(), there: there(rounds) }
             }
@@ -216,7 +216,7 @@ fn enumerate(instance: &wgpu::Instance, backends: wgpu::Backends) -> Vec<wgpu::A
     block_on(instance.enumerate_adapters(backends))
 }
 
-/// The better, the lower.
+/// The preference of a kind of device: lower is better.
 fn rank(kind: wgpu::DeviceType) -> u8 {
     match kind {
         wgpu::DeviceType::DiscreteGpu => 0,
@@ -227,7 +227,7 @@ fn rank(kind: wgpu::DeviceType) -> u8 {
     }
 }
 
-/// The backends by the names that people give them.
+/// The backends by their names for users.
 const BACKENDS: [(&str, wgpu::Backends); 5] = [
     ("vulkan", wgpu::Backends::VULKAN),
     ("metal", wgpu::Backends::METAL),
@@ -236,7 +236,7 @@ const BACKENDS: [(&str, wgpu::Backends); 5] = [
     ("opengl", wgpu::Backends::GL),
 ];
 
-/// A name that people give an adapter, in lower case.
+/// A user's name for an adapter, in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct AdapterName(String);
 
@@ -255,12 +255,12 @@ impl AdapterName {
         }
     }
 
-    /// The backends that can have it.
+    /// The backends that may have an adapter of this name.
     fn backends(&self) -> wgpu::Backends {
         self.parts().0.unwrap_or(wgpu::Backends::all())
     }
 
-    /// The backends, where the text names one in full or before a colon; and a part of the adapter's name.
+    /// The backends, if the text names one in full or before a colon; and a part of the adapter's name.
     fn parts(&self) -> (Option<wgpu::Backends>, &str) {
         if let Some((_, backends)) = BACKENDS.iter().find(|(name, _)| *name == self.0) {
             return (Some(*backends), "");
@@ -292,7 +292,7 @@ mod tests {
     fn names_fit_parts_of_adapters_and_backends() {
         let vulkan = info("llvmpipe (LLVM 15.0.6, 256 bits)", Backend::Vulkan);
         let gl = info("llvmpipe (LLVM 15.0.6, 256 bits)", Backend::Gl);
-        // The letters of a backend are in many names.
+        // Many names contain the letters of a backend.
         let intel = info("Intel(R) Iris(R) Xe Graphics (TGL GT2)", Backend::Vulkan);
         let rows = [
             ("llvmpipe", [true, true, false]),
@@ -335,7 +335,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn the_kernel_tells_of_graphics_cards() {
+    fn the_kernel_lists_graphics_cards() {
         let folder = std::env::temp_dir().join(format!("halfway_devices_{}", std::process::id()));
         let with = |node: &str| {
             let path = folder.join(node);
@@ -354,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn who_says_more_nearly_goes_first() {
+    fn the_more_specific_choice_wins() {
         let wanted = |own: Option<&str>, set: &[(&str, &str)]| {
             let choice = AdapterChoice { name: own.map(str::to_owned) };
             let variable = |name: &str| set.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned());
@@ -371,7 +371,7 @@ mod tests {
         assert_eq!(wanted(None, &all[1..2]), (None, vec![Backends::GL]));
         assert_eq!(wanted(None, &[]), (None, both.clone()));
         assert_eq!(wanted(Some(""), &[]), (None, both.clone()));
-        // Any graphics adapter: which of them, wgpu's variables say.
+        // Any graphics adapter, limited by wgpu's variables.
         assert_eq!(wanted(Some("gpu"), &all), (named("c"), vec![Backends::GL]));
         assert_eq!(wanted(None, &[("HALFWAY_ADAPTER", "GPU"), all[1]]), (None, vec![Backends::GL]));
         assert_eq!(wanted(Some("gpu"), &[]), (None, both));

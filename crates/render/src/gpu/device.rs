@@ -9,14 +9,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The open graphics device. Inserted by the window, by an engine that has one ([`Gpu::from_device`]), or opened
+/// The open graphics device. Inserted by the window or by an engine that has one ([`Gpu::from_device`]), or opened
 /// headless by the first frame.
 ///
-/// Another `Gpu` may be inserted between any two frames: the next one is drawn on it, from what the App holds.
+/// Another `Gpu` may be inserted between any two frames: the next frame is drawn on it, with all data of the App.
 ///
 /// A device can be lost at any time: the driver crashes or is updated, the GPU hangs or is unplugged. The frame that
-/// finds out has [`RenderError::DeviceLost`] in its report, once, and is not drawn; then a new device is opened, by the
-/// window for its surface and else by the next frame, which is drawn.
+/// detects the loss has [`RenderError::DeviceLost`] in its report, once, and is not drawn; then a new device is opened,
+/// by the window for its surface or else by the next frame, which is drawn.
 #[derive(Resource, Clone)]
 pub struct Gpu {
     /// The instance the adapter came from; surfaces are made with it. `None` where a device came alone.
@@ -27,23 +27,23 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// The queue all work is submitted to.
     pub queue: wgpu::Queue,
-    /// No other device has it, in any instance. (wgpu's own comparison holds within an instance only.)
+    /// A number that no other device has, in any instance. (wgpu's own comparison is valid within an instance only.)
     id: u64,
-    /// Why nothing that is right can be drawn on it, if so.
+    /// The reason why it cannot draw correctly, if any.
     unfit: Option<Arc<str>>,
     notices: Arc<Mutex<Notices>>,
 }
 
-/// The messages that the device has sent by itself.
+/// The messages of the device's callbacks.
 struct Notices {
-    /// The first error outside of any call, until it is taken.
+    /// The first error outside of any call, until it is reported.
     failure: Option<String>,
     loss: Option<Loss>,
 }
 
 struct Loss {
     reason: String,
-    /// A report has it.
+    /// Whether a report has it.
     told: bool,
 }
 
@@ -58,7 +58,7 @@ impl Gpu {
         let (device, queue) = block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("halfway"),
             required_features: wanted & adapter.features(),
-            // All the adapter has: large meshes and long light lists may need more than the defaults.
+            // All of the adapter's limits: large meshes and long light lists may need more than the defaults.
             required_limits: adapter.limits(),
             ..Default::default()
         }))
@@ -68,10 +68,9 @@ impl Gpu {
         Ok(gpu)
     }
 
-    /// A device that is open already: an engine's. It may lack any of wgpu's optional features and have the smallest
-    /// limits; what it cannot do is done in another way, or said in
-    /// [`FrameReport::errors`](crate::FrameReport::errors); in each frame, that its OpenGL is too old to draw what is
-    /// right.
+    /// A device that an engine has opened. It may lack any of wgpu's optional features and have the smallest limits;
+    /// missing features are replaced by fallbacks, or reported in [`FrameReport::errors`](crate::FrameReport::errors).
+    /// If its OpenGL is too old to draw correctly, each frame reports that.
     ///
     /// The device's callbacks stay the engine's: what goes wrong outside of any call, and the loss of the device, goes
     /// to whatever it has set with `on_uncaptured_error` and `set_device_lost_callback`. After a loss it inserts
@@ -110,7 +109,7 @@ impl Gpu {
         Self { instance, adapter, device, queue, id, unfit: unfit.map(Arc::from), notices }
     }
 
-    /// Takes note of what the device says by itself.
+    /// Registers the device's callbacks.
     fn listen(&self) {
         let notices = Arc::clone(&self.notices);
         self.device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
@@ -123,8 +122,8 @@ impl Gpu {
         });
     }
 
-    /// Whether what has images or a solid can be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes in
-    /// draws that read both.
+    /// Whether objects with images or a solid can be lit by an environment. llvmpipe through Vulkan (Mesa 22.3) crashes
+    /// in draws that read both.
     pub fn lights_images_by_environments(&self) -> bool {
         let info = self.device.adapter_info();
         !(info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe"))
@@ -140,23 +139,24 @@ impl Gpu {
         }
     }
 
-    /// Whether it is known that the device is lost. Never of an engine's device, which alone hears of it.
+    /// Whether the device is known to be lost. Always `false` for an engine's device, whose loss only the engine learns
+    /// of.
     pub fn is_lost(&self) -> bool {
         lock(&self.notices).loss.is_some()
     }
 
-    /// Tells devices apart.
+    /// A number that identifies the device.
     pub(crate) fn id(&self) -> u64 {
         self.id
     }
 
-    /// Lets the device make known what it has finished, and whether it is lost.
+    /// Polls the device for finished work and for its loss.
     ///
     /// # Errors
-    /// [`RenderError::DeviceLost`], each time; whoever gets it tells of the loss.
+    /// [`RenderError::DeviceLost`], each time; the caller reports the loss.
     pub(crate) fn poll(&self, poll: wgpu::PollType) -> Result<(), RenderError> {
         if !self.is_lost() {
-            // wgpu panics where it is by polling that it learns of the loss, after it has called back.
+            // wgpu panics if polling itself detects the loss, after it has called the callback.
             let polled = catch_unwind(AssertUnwindSafe(|| self.device.poll(poll)));
             if !self.is_lost() {
                 return match polled {
@@ -174,14 +174,14 @@ impl Gpu {
         Err(RenderError::DeviceLost(reason.unwrap_or_default()))
     }
 
-    /// The first error the driver reported outside any call, if it has not been taken yet; of a device on which nothing
-    /// is right why, each time.
+    /// The first error that the driver reported outside any call, unless it was taken before; for an unfit device the
+    /// reason, each time.
     pub(crate) fn take_failure(&self) -> Option<RenderError> {
         let unfit = self.unfit.as_deref().map(str::to_owned);
         unfit.or_else(|| lock(&self.notices).failure.take()).map(RenderError::Device)
     }
 
-    /// The loss of the device, if it has not been told yet.
+    /// The loss of the device, if it was not reported yet.
     pub(crate) fn take_loss(&self) -> Option<RenderError> {
         let mut notices = lock(&self.notices);
         let loss = notices.loss.as_mut().filter(|loss| !loss.told)?;
@@ -189,9 +189,9 @@ impl Gpu {
         Some(RenderError::DeviceLost(loss.reason.clone()))
     }
 
-    /// Which vertex of a triangle gives what is not interpolated.
+    /// The provoking vertex of triangles.
     pub(crate) fn provoking_vertex(&self) -> ProvokingVertex {
-        ProvokingVertex::of(self.device.adapter_info().backend)
+        ProvokingVertex::for_backend(self.device.adapter_info().backend)
     }
 
     /// Whether the adapter draws on the CPU.

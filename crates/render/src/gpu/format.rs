@@ -1,12 +1,12 @@
-//! The formats of targets, and what the device can do with them.
+//! The formats of targets, and the device's support for them.
 
 use crate::gpu::device::Gpu;
 use crate::picture::Pixels;
 use halfway_frame::error::RenderError;
 use halfway_lighting::Samples;
 
-/// The format that a scene is drawn into before passes over the finished picture: 32-bit floats, or where the adapter
-/// cannot do with them what the frame needs, and bytes are made of them, 16-bit ones.
+/// The format that a scene is drawn into before passes over the finished picture: 32-bit floats, or 16-bit ones if the
+/// adapter lacks an operation on those that the frame needs and the target holds bytes.
 pub(super) fn drawn_format(
     gpu: &Gpu,
     pixels: Pixels,
@@ -48,7 +48,7 @@ pub(super) fn is_float(format: wgpu::TextureFormat) -> bool {
 /// The operation that the frame needs and the device cannot do with floats of a format.
 fn floats_lack(gpu: &Gpu, format: wgpu::TextureFormat, samples: Samples, blends: bool) -> Option<&'static str> {
     use wgpu::TextureFormatFeatureFlags as Flags;
-    // The adapter may say more than WebGPU grants, but a device has to have been asked for it.
+    // The adapter may support more than WebGPU guarantees, but only if the device requested it.
     let can = gpu.format_features(format);
     if !can.allowed_usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
         return Some("draw them");

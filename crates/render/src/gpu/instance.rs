@@ -1,6 +1,6 @@
-//! Instances of wgpu, which adapters and surfaces come from.
+//! Instances of wgpu, which create adapters and surfaces.
 
-/// An instance that asks these backends and no others. `display` is that of windows to draw in, if any.
+/// An instance with only these backends. `display` is that of the window, if any.
 pub(crate) fn instance(
     backends: wgpu::Backends,
     display: Option<Box<dyn wgpu::wgt::WgpuHasDisplayHandle>>,
@@ -12,11 +12,11 @@ pub(crate) fn instance(
         return instance;
     }
     let descriptor = wgpu::InstanceDescriptor { display, ..wgpu::InstanceDescriptor::new_without_display_handle() };
-    // The variable that names backends has had its say.
+    // The variable that limits backends is already applied.
     wgpu::Instance::new(wgpu::InstanceDescriptor { backends, ..descriptor.with_env() })
 }
 
-/// An instance of Vulkan without surfaces on Wayland, where there can be none; else `None`.
+/// An instance of Vulkan without Wayland surfaces, if there can be none; else `None`.
 ///
 /// With them Mesa's layer `VK_LAYER_MESA_device_select` asks the Wayland library for a display while adapters are
 /// listed, and without `XDG_RUNTIME_DIR` that library prints an error line.
@@ -25,7 +25,7 @@ fn without_wayland() -> Option<wgpu::Instance> {
     use wgpu::hal::vulkan;
     let unreachable = ["XDG_RUNTIME_DIR", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"];
     let flags = wgpu::InstanceFlags::default();
-    // An instance that is made from a driver's has the default flags.
+    // An instance made from a driver's instance has the default flags.
     if unreachable.iter().any(|variable| std::env::var_os(variable).is_some()) || flags.with_env() != flags {
         return None;
     }

@@ -1,4 +1,4 @@
-//! The drawer that uses wgpu: devices, targets, shaders, pipelines and passes.
+//! The wgpu renderer: devices, targets, shaders, pipelines and passes.
 
 pub(crate) mod attachments;
 mod choose;

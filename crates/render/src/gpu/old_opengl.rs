@@ -1,13 +1,13 @@
-//! OpenGL that is too old for wgpu to draw with.
+//! Detects versions of OpenGL on which wgpu draws incorrectly.
 
-/// From this version of OpenGL on shaders say which buffer is meant by a number.
+/// From this version of OpenGL on shaders bind buffers by number.
 const NUMBERED: (u32, u32) = (4, 2);
 
-/// Why nothing that is right can be drawn, if so: OpenGL before 4.2 with compute shaders as an extension.
+/// The reason why drawing would be incorrect, if any: OpenGL before 4.2 with compute shaders as an extension.
 ///
-/// There wgpu (30.0) leaves the numbers of buffers out of its shaders, for the version, and does not set them by name
-/// either, for the extension, so that all buffers are the first one. wgpu asks for a context of version 3.3; Mesa gives
-/// its newest one all the same, and NVIDIA 3.3.
+/// There wgpu (30.0) omits the numbers of buffers from its shaders because of the version, and does not set them by
+/// name because of the extension, so that all buffers are the first one. wgpu asks for a context of version 3.3; Mesa
+/// returns its newest one nevertheless, and NVIDIA 3.3.
 pub(crate) fn unfit(info: &wgpu::AdapterInfo, flags: wgpu::DownlevelFlags) -> Option<String> {
     let found = version(&info.driver_info).filter(|&found| found < NUMBERED)?;
     let is_unfit = info.backend == wgpu::Backend::Gl && flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS);
@@ -20,8 +20,8 @@ pub(crate) fn unfit(info: &wgpu::AdapterInfo, flags: wgpu::DownlevelFlags) -> Op
     })
 }
 
-/// The version in what OpenGL says of itself, such as `3.3.0 NVIDIA 580.159.04`; `None` of OpenGL ES, which begins with
-/// its name.
+/// The version in OpenGL's version string, such as `3.3.0 NVIDIA 580.159.04`; `None` for OpenGL ES, whose string begins
+/// with its name.
 fn version(said: &str) -> Option<(u32, u32)> {
     let mut numbers = said.split([' ', '.']).map(str::parse);
     Some((numbers.next()?.ok()?, numbers.next()?.ok()?))

@@ -1,4 +1,4 @@
-//! The systems by which wgpu draws a frame.
+//! The systems that draw a frame with wgpu.
 
 use crate::adapter::cpu_draws;
 use crate::cpu;

@@ -1,9 +1,8 @@
-//! Which vertex of a triangle gives what is not interpolated.
+//! The provoking vertex of triangles.
 
-/// The vertex of a triangle from which its fragments get what is not interpolated, its provoking vertex. The texts ask
-/// for the first, in WGSL `@interpolate(flat, first)`. OpenGL takes the last, OpenGL ES without a choice, and wgpu
-/// refuses such a text there. So for OpenGL the text asks for `either`, and triangles are turned so that their own
-/// vertex is the last.
+/// The provoking vertex of a triangle: its fragments get flat varyings from it. The shaders request the first, in WGSL
+/// `@interpolate(flat, first)`. OpenGL uses the last, OpenGL ES always, and wgpu refuses such shaders there. So for
+/// OpenGL the shader requests `either`, and triangles are rotated so that their own vertex is the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ProvokingVertex {
     First,
@@ -11,11 +10,11 @@ pub(crate) enum ProvokingVertex {
 }
 
 impl ProvokingVertex {
-    pub(crate) fn of(backend: wgpu::Backend) -> Self {
+    pub(crate) fn for_backend(backend: wgpu::Backend) -> Self {
         if backend == wgpu::Backend::Gl { Self::Last } else { Self::First }
     }
 
-    /// Turns triangles with the vertex of their own in first place so that it is where it is looked for; windings stay.
+    /// Rotates triangles whose own vertex comes first so that it is the provoking one; windings stay.
     pub(crate) fn place(self, corners: &mut [u32]) {
         if self == Self::Last {
             corners.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.rotate_left(1));
@@ -39,7 +38,7 @@ mod tests {
     fn opengl_finds_the_first_vertex_last() {
         let placed = |backend| {
             let mut corners = [4, 5, 6, 9, 8, 7];
-            ProvokingVertex::of(backend).place(&mut corners);
+            ProvokingVertex::for_backend(backend).place(&mut corners);
             corners
         };
         assert_eq!(placed(wgpu::Backend::Vulkan), [4, 5, 6, 9, 8, 7]);

@@ -1,4 +1,4 @@
-//! Textures that are copied into memory.
+//! Copies textures into memory.
 
 use crate::gpu::device::Gpu;
 use crate::picture::Picture;
@@ -50,7 +50,7 @@ impl ReadBack {
         );
         gpu.queue.submit([encoder.finish()]);
         let (sender, mapped) = channel();
-        // The receiver is gone only when nobody wants the picture any more.
+        // The receiver is dropped only if the picture is no longer wanted.
         buffer.map_async(wgpu::MapMode::Read, .., move |result| drop(sender.send(result)));
         Ok(Self { gpu: gpu.clone(), buffer, width, height, row_bytes, format, mapped })
     }

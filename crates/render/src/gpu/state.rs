@@ -8,7 +8,7 @@ use crate::gpu::timer::GpuTimer;
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
 
-/// All that belongs to a device.
+/// All resources that belong to a device.
 #[derive(SystemParam)]
 pub(crate) struct GpuState<'w> {
     target: ResMut<'w, Target>,
@@ -19,7 +19,7 @@ pub(crate) struct GpuState<'w> {
 }
 
 impl GpuState<'_> {
-    /// Drops it.
+    /// Drops them.
     pub(crate) fn forget(&mut self) {
         *self.target = Target::default();
         *self.meshes = MeshBuffers::default();

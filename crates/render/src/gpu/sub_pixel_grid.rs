@@ -1,16 +1,16 @@
-//! The grid within a pixel to which an adapter rounds the places of vertices.
+//! The sub-pixel grid that an adapter snaps vertices to.
 
 use crate::gpu::device::Gpu;
 use halfway_frame::error::RenderError;
 use std::sync::mpsc;
 
-/// The pixels of the measurement, in a row; the bits that can be told are fewer.
+/// The pixels of the measurement, in a row; fewer bits than this can be measured.
 const PIXELS: u32 = 16;
 /// Bytes of a row as it is copied to a buffer.
 const ROW_BYTES: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
 
-/// A triangle in pixel k, whose left edge stands 0.4/2ᵏ of a pixel to the right of the pixel's centre. It covers the
-/// centre only where the edge is rounded to it: by a grid of k bits or fewer, half a step of which is 0.5/2ᵏ.
+/// A triangle in pixel k, whose left edge lies 0.4/2ᵏ of a pixel to the right of the pixel's centre. It covers the
+/// centre only if the edge is snapped to it: by a grid of k bits or fewer, half a step of which is 0.5/2ᵏ.
 const TEXT: &str = "
 @vertex
 fn vs(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
@@ -27,8 +27,8 @@ fn fs() -> @location(0) vec4f {
 ";
 
 impl Gpu {
-    /// The bits of the grid within a pixel to which the adapter rounds the places of vertices, as a small drawing shows
-    /// them. Vulkan grants 4 or more; most adapters have 8.
+    /// The bits of the sub-pixel grid that the adapter snaps vertices to, measured by a small drawing. Vulkan
+    /// guarantees 4 or more; most adapters have 8.
     ///
     /// # Errors
     /// [`RenderError::Device`] when the device fails.
@@ -82,7 +82,7 @@ impl Gpu {
         encoder.copy_texture_to_buffer(picture.as_image_copy(), to, size);
         queue.submit([encoder.finish()]);
         let (sender, mapped) = mpsc::channel();
-        // Nobody listens any more only after an error.
+        // The receiver is dropped only after an error.
         buffer.map_async(wgpu::MapMode::Read, .., move |result| drop(sender.send(result)));
         let failed = |error: &dyn std::fmt::Display| RenderError::Device(error.to_string());
         device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;

@@ -5,11 +5,11 @@ use bevy_ecs::prelude::Resource;
 use bevy_math::UVec2;
 use halfway_frame::error::RenderError;
 
-/// A window's surface; while this resource is there it is the target instead of [`Headless`](crate::Headless).
+/// A window's surface; while this resource exists it is the target instead of [`Headless`](crate::Headless).
 #[derive(Resource)]
 pub struct SurfaceTarget {
     surface: wgpu::Surface<'static>,
-    /// The device that it was made for.
+    /// The number of its device.
     gpu: u64,
     formats: Vec<wgpu::TextureFormat>,
     config: wgpu::SurfaceConfiguration,
@@ -41,8 +41,8 @@ impl SurfaceTarget {
         }
     }
 
-    /// Whether the newest frame has a picture of the surface to draw into and present. Where it has
-    /// none the frame is skipped without waiting for the display, so whoever asks for frames waits.
+    /// Whether the newest frame has acquired a picture of the surface. Without one the frame is skipped without waiting
+    /// for the display, so the caller should wait before the next frame.
     pub fn acquired(&self) -> bool {
         self.acquired
     }
@@ -57,7 +57,7 @@ impl SurfaceTarget {
         self.config.format
     }
 
-    /// Takes a format that encodes as asked, if there is one.
+    /// Selects a format with this encoding, if there is one.
     pub(crate) fn pick_format(&mut self, encodes: bool) {
         let format = pick_format(&self.formats, self.config.format, encodes);
         self.stale |= format != self.config.format;
@@ -67,7 +67,7 @@ impl SurfaceTarget {
     /// The next picture of the surface; `None` means skip this frame.
     pub(crate) fn acquire(&mut self, gpu: &Gpu) -> Result<Option<wgpu::SurfaceTexture>, Lost> {
         self.acquired = false;
-        // It may be another instance's by now.
+        // The device may belong to another instance by now.
         if self.gpu != gpu.id() {
             return Err(Lost);
         }
@@ -82,8 +82,8 @@ impl SurfaceTarget {
     }
 }
 
-/// The window's surface is gone, or it was made for another device than the world's [`Gpu`]: whoever owns the window
-/// removes its [`SurfaceTarget`], and inserts a new one. Set by the frame that found out.
+/// The window's surface is lost, or it belongs to another device than the world's [`Gpu`]: the owner of the window
+/// should replace its [`SurfaceTarget`] by a new one. Inserted by the frame that detects it.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SurfaceLost;
 
@@ -93,9 +93,9 @@ pub(crate) struct Lost;
 /// The answer of a surface to a frame.
 #[derive(Debug)]
 struct Answer {
-    /// Without one the frame is skipped, and the next one asks again.
+    /// Without one the frame is skipped, and the next one tries again.
     texture: Option<wgpu::SurfaceTexture>,
-    /// The surface is configured anew before it is asked again.
+    /// Whether the surface has to be reconfigured before the next try.
     is_stale: bool,
 }
 
@@ -111,8 +111,8 @@ fn answer(current: wgpu::CurrentSurfaceTexture) -> Result<Answer, Lost> {
     Ok(Answer { texture, is_stale })
 }
 
-/// Of a surface's formats the one that is `current` but for the encoding, else another of bytes that encodes as asked,
-/// else the first.
+/// The format among a surface's formats that equals `current` except for the encoding, else another of bytes with this
+/// encoding, else the first.
 fn pick_format(formats: &[wgpu::TextureFormat], current: wgpu::TextureFormat, encodes: bool) -> wgpu::TextureFormat {
     let sibling = if encodes { current.add_srgb_suffix() } else { current.remove_srgb_suffix() };
     let is_sibling = |format: &&wgpu::TextureFormat| **format == sibling;
@@ -147,9 +147,9 @@ mod tests {
         assert_eq!(pick_format(&[Rgba8Unorm], Rgba8Unorm, true), Rgba8Unorm, "nothing encodes");
     }
 
-    // No driver at hand can be made to let the time run out.
+    // No available driver can be made to time out.
     #[test]
-    fn a_surface_without_a_picture_skips_the_frame_and_only_a_lost_one_is_given_up() {
+    fn a_surface_without_a_texture_skips_the_frame() {
         for (current, is_stale) in [
             (Current::Timeout, false),
             (Current::Occluded, false),

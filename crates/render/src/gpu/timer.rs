@@ -1,4 +1,4 @@
-//! The time of the pass on the GPU, by its own clock.
+//! The GPU time of the pass, by the GPU's clock.
 
 use crate::gpu::device::Gpu;
 use bevy_ecs::prelude::Resource;
@@ -7,11 +7,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::{Duration, Instant};
 
-/// While this resource is there, every frame's pass is timed on the GPU, where the adapter can
-/// (`wgpu::Features::TIMESTAMP_QUERY`). Not there unless somebody inserts it, as the window does for its title.
+/// While this resource exists, every frame's pass is timed on the GPU, if the adapter supports it
+/// (`wgpu::Features::TIMESTAMP_QUERY`). It exists only if inserted, as the window does for its title.
 ///
-/// No frame waits for a time: it is read when it has arrived, some frames later. While more frames are on their
-/// way than there are buffers for, the next one is not timed.
+/// No frame waits for a time: it is read when it has arrived, some frames later. If more frames are pending than there
+/// are buffers, the next one is not timed.
 ///
 /// ```no_run
 /// # use bevy_app::App;
@@ -34,9 +34,9 @@ pub struct GpuTimer {
 }
 
 impl GpuTimer {
-    /// From the beginning of the pass to its end, of the newest frame whose time has arrived. `None` before the
-    /// first one has, and forever where the adapter has no such clock. What the GPU does for others meanwhile counts
-    /// too, and its clock may be coarse.
+    /// The time from the beginning of the pass to its end, for the newest frame whose time has arrived. `None` before
+    /// the first one, and always if the adapter has no such clock. It includes other work of the GPU meanwhile, and the
+    /// clock may be coarse.
     pub fn newest(&self) -> Option<Duration> {
         self.newest
     }
@@ -47,7 +47,8 @@ impl GpuTimer {
         self.newest.map(|_| Duration::from_secs_f64(self.smoothed))
     }
 
-    /// Takes in what has arrived, and says what the pass that comes now is to write; `None` where it is not timed.
+    /// Collects times that have arrived, and returns the time stamps for the next pass to write; `None` if it is not
+    /// timed.
     pub(crate) fn begin(&mut self, gpu: &Gpu) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             return None;
@@ -59,14 +60,14 @@ impl GpuTimer {
         self.queries.insert(queries).writes()
     }
 
-    /// Has what the pass wrote sent to the CPU; behind the pass, in the same submission.
+    /// Copies the pass's time stamps to the CPU; after the pass, in the same submission.
     pub(crate) fn end(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(queries) = &mut self.queries {
             queries.read_back(encoder);
         }
     }
 
-    /// Lets go of what belongs to a device.
+    /// Drops everything that belongs to a device.
     pub(crate) fn forget_device(&mut self) {
         self.queries = None;
     }
@@ -78,7 +79,7 @@ impl GpuTimer {
     }
 }
 
-/// Frames whose times may be under way; a display keeps two or three of them.
+/// The most frames with pending times; a display keeps two or three frames pending.
 const RING: usize = 4;
 
 /// Ticks at the beginning and the end of a pass.
@@ -101,7 +102,7 @@ struct Queries {
 
 struct ReadBack {
     buffer: wgpu::Buffer,
-    /// Those that it brought last.
+    /// The last ticks that it delivered.
     ticks: Ticks,
     state: Arc<AtomicU8>,
 }
@@ -143,7 +144,7 @@ impl Queries {
     /// The time of the oldest pass that has not been taken; `None` while it has not arrived.
     fn take_oldest(&mut self) -> Option<Duration> {
         loop {
-            // Passes end in order, so what is under way stands between those that have been taken and the next.
+            // Passes end in order, so pending buffers lie between the taken ones and the next.
             let mut places = (0..RING).map(|i| (self.next + i) % RING);
             let place = places.find(|&place| self.ring[place].state() != FREE)?;
             let oldest = &mut self.ring[place];
@@ -153,7 +154,7 @@ impl Queries {
             let ticks = oldest.buffer.get_mapped_range(..).map(|bytes| bytemuck::pod_read_unaligned::<Ticks>(&bytes));
             oldest.buffer.unmap();
             oldest.state.store(FREE, Ordering::Relaxed);
-            // A frame whose commands were refused leaves what was there.
+            // A frame whose commands were refused leaves the old ticks.
             if let Ok(ticks) = ticks
                 && ticks != std::mem::replace(&mut oldest.ticks, ticks)
             {
@@ -180,7 +181,7 @@ impl Queries {
         encoder.copy_buffer_to_buffer(&self.resolved, 0, buffer, 0, TICKS_BYTES);
         state.store(UNDER_WAY, Ordering::Relaxed);
         let arrived = Arc::clone(state);
-        // Submitting a later frame calls this. After a failure nothing is mapped, and the buffer is free again.
+        // Submitting a later frame calls this. After a failure the buffer is not mapped, and is free again.
         encoder.map_buffer_on_submit(buffer, wgpu::MapMode::Read, .., move |result| {
             arrived.store(if result.is_ok() { ARRIVED } else { FREE }, Ordering::Release);
         });
@@ -194,7 +195,7 @@ impl ReadBack {
     }
 }
 
-/// Zero where the clock ran backwards, which it may between submissions of some drivers.
+/// Zero if the clock ran backwards, which it may between submissions of some drivers.
 fn elapsed([begin, end]: Ticks, period: f64) -> Duration {
     Duration::from_nanos((end.saturating_sub(begin) as f64 * period) as u64)
 }

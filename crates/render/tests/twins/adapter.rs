@@ -6,7 +6,8 @@ use halfway_render::{Gpu, wgpu};
 pub(crate) const INPUT: usize = 40;
 pub(crate) const RESULT: usize = 9;
 
-/// What a row's call reads its arguments by, and the shader around the call. `i` is the number of the input.
+/// The functions by which a row's call reads its arguments, and the shader around the call. `i` is the number of the
+/// input.
 const AROUND: &str = "
 @group(0) @binding(0) var<storage, read> inputs: array<array<f32, 40>>;
 @group(0) @binding(1) var<storage, read_write> results: array<array<f32, 9>>;
@@ -51,7 +52,7 @@ fn call(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
-/// What a function gives back.
+/// The type of a function's result.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kind {
     Scalar,
@@ -88,13 +89,13 @@ impl Kind {
     }
 }
 
-/// What a text reads in its group 1.
+/// The resources of a text's group 1.
 pub(crate) struct Bound {
     pub(crate) layout: wgpu::BindGroupLayout,
     pub(crate) group: wgpu::BindGroup,
 }
 
-/// What `call` gives for each input, with `lighting` as the text and these values of its overrides.
+/// The results of `call` for each input, with `lighting` as the text and these values of its overrides.
 pub(crate) fn results(
     gpu: &Gpu,
     lighting: &str,

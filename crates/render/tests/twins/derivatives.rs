@@ -27,7 +27,7 @@ const CASES: [Planes; 4] = [
     ([1e-4, 1e-6, 2e-6], [[0.1, 1e-3, 2e-3], [1e-5, 1e-6, 0.0], [1e-3, 0.0, 1e-4], [-0.2, 2e-4, 0.0]]),
 ];
 
-/// What stands around the call. The coordinates at the centroid are others than those at the center.
+/// The shader around the call. The coordinates at the centroid differ from those at the center.
 const AROUND: &str = "
 @vertex
 fn cover(@builtin(vertex_index) k: u32) -> @builtin(position) vec4f {
@@ -138,7 +138,7 @@ fn gross(plane: [f32; 3]) -> f64 {
     a + f64::from(SIDE / 2) * (b + c)
 }
 
-/// What coordinate k is to be along an axis at a pixel, and how far from it it may be.
+/// The expected value of coordinate k along an axis at a pixel, and the allowed distance from it.
 ///
 /// The planes are sums of three, off by 3 ULP; at/w and 1/w by 8, with both divisions and the product; the difference
 /// of two pixels by 16, and with the product and the difference by 24. That counts over 1/w, which itself is known to 6
@@ -150,7 +150,7 @@ fn expected((over_w, planes): &Planes, k: usize, axis: usize, p: [f64; 2]) -> (f
     (value, 32.0 * ULP * sums / m * (gross(*over_w) / m))
 }
 
-/// What is wrong with the first number that is too far from its twin.
+/// A description of the first number that is too far from its twin.
 pub(crate) fn too_far(gpu: &Gpu, maps: &str) -> Option<String> {
     CASES.iter().find_map(|planes| ["uv", "dx", "dy"].into_iter().find_map(|part| of_part(gpu, maps, planes, part)))
 }

@@ -22,7 +22,7 @@ pub(crate) const HEIGHT: usize = 7;
 
 const SIZES: [[u32; 2]; MapKind::COUNT] = [[5, 3], [1, 1], [1, 7], [6, 4], [5, 4], [9, 1], [1, 3], [16, 8]];
 
-/// What of an image its texture holds.
+/// The form of an image in its texture.
 fn form(slot: usize) -> ImageForm {
     match slot {
         OPACITY | OCCLUSION => ImageForm::Ripmap,
@@ -145,7 +145,7 @@ impl Look {
     }
 
     /// Of [`bits`](Self::bits).
-    pub(crate) fn of(bits: f32) -> Self {
+    pub(crate) fn from_bits(bits: f32) -> Self {
         let field = |place: u32| bits as usize >> (2 * place) & 3;
         Self {
             magnify: field(0),

@@ -1,4 +1,4 @@
-//! What the functions are called with: every edge of their definitions, and numbers over the whole range.
+//! Arguments for the functions: every edge of their definitions, and numbers over the whole range.
 
 use fastrand::Rng;
 use halfway_lighting::equations::{Colors, ConeTerms, Directional, Hemisphere, Light, Point, ShadedPoint, Spot};

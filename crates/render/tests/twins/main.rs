@@ -40,7 +40,7 @@ static LIGHTING: LazyLock<String> = LazyLock::new(|| {
     .concat()
 });
 
-/// What is wrong with the first result that is too far from its twin.
+/// A description of the first result that is too far from its twin.
 fn too_far(gpu: &Gpu, lighting: &str, row: &Row) -> Option<String> {
     far_of(row, adapter::results(gpu, lighting, (row.call, row.kind), row.constants, &row.inputs))
 }
@@ -69,7 +69,7 @@ fn far_of(row: &Row, results: Vec<[f32; adapter::RESULT]>) -> Option<String> {
 }
 
 #[test]
-fn each_function_gives_what_its_twin_gives() {
+fn each_function_matches_its_twin() {
     let gpu = Gpu::open_headless().expect("an adapter");
     let failures: Vec<String> = rows().iter().filter_map(|row| too_far(&gpu, &LIGHTING, row)).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
@@ -157,7 +157,7 @@ fn named(module: &naga::Module) -> (BTreeSet<String>, Vec<(String, Option<f32>)>
     (functions, constants)
 }
 
-/// What a text has that has no twin in the table, and the other way round.
+/// The functions and constants of a text without a twin in the table, and the other way round.
 fn without_twin(text: &str) -> Vec<String> {
     let (functions, constants) = named(&parsed(text));
     let called: BTreeSet<String> = rows().iter().map(|row| row.function.to_owned()).collect();

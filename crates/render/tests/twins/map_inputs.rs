@@ -1,4 +1,4 @@
-//! What the functions of maps.wgsl are called with: every edge of their definitions, and numbers over the whole range.
+//! Arguments for the functions of maps.wgsl: every edge of their definitions, and numbers over the whole range.
 
 use crate::images::{FILTERS, HEIGHT, IMAGES, Look, WRAPS};
 use crate::inputs::{Input, between, direction, input, magnitude, many};
@@ -86,7 +86,7 @@ pub(crate) fn texels() -> Vec<Input> {
     each.collect()
 }
 
-/// What is beyond along u and v, a place, a level and a filter.
+/// The wrap modes along u and v, a position, a level and a filter.
 pub(crate) fn in_levels(slot: usize) -> Vec<Input> {
     let count = IMAGES[slot].levels().len();
     many([], 2500, |random| {

@@ -31,7 +31,7 @@ pub(crate) fn exact(_: &[f32], expected: &[f64]) -> Vec<f64> {
 // ---- numbers that an image is looked up by --------------------------------------------------------
 
 fn fields(x: &[f32]) -> [f64; 6] {
-    Look::of(x[0]).fields().map(|field| field as f64)
+    Look::from_bits(x[0]).fields().map(|field| field as f64)
 }
 
 pub(crate) fn look_rows() -> Vec<Row> {
@@ -45,21 +45,21 @@ pub(crate) fn look_rows() -> Vec<Row> {
             ("channel_of", "channel_of(u32(s(i, 0)), vec4f(v(i, 1), s(i, 4)))"),
             Kind::Scalar,
             looks(),
-            |x| vec![x[1 + Look::of(x[0]).channel() as usize].into()],
+            |x| vec![x[1 + Look::from_bits(x[0]).channel() as usize].into()],
             exact,
         ),
         row(
             ("takes_second", "select(0.0, 1.0, takes_second(u32(s(i, 0))))"),
             Kind::Scalar,
             looks(),
-            |x| vec![if Look::of(x[0]).takes_second() { 1.0 } else { 0.0 }],
+            |x| vec![if Look::from_bits(x[0]).takes_second() { 1.0 } else { 0.0 }],
             exact,
         ),
         row(
             ("of_set", "of_set(u32(s(i, 0)), vec4f(v(i, 1), s(i, 4)))"),
             Kind::Pair,
             looks(),
-            |x| of_set(Look::of(x[0]), x, 1).to_vec(),
+            |x| of_set(Look::from_bits(x[0]), x, 1).to_vec(),
             exact,
         ),
     ]
@@ -91,7 +91,7 @@ fn wrapped_index(at: i64, side: i64, wrap: Wrap) -> i64 {
     }
 }
 
-/// What a filter makes of four texels of which each has a number of its own.
+/// The weights of a filter: its result for four texels with a number each.
 fn texel_weights(f: f64, filter: TexelFilter) -> [f64; 4] {
     let own = |x, _| std::array::from_fn(|k| if k == x as usize { 1.0 } else { 0.0 });
     let image = Pyramid::new(TexelImage::from_fn(4, 1, own).expect("four texels"));
@@ -187,11 +187,11 @@ fn in_level<const SLOT: usize>(x: &[f32], uv: [f64; 2]) -> [f64; 4] {
 }
 
 fn at_level<const SLOT: usize>(x: &[f32], uv: [f64; 2]) -> [f64; 4] {
-    lookup::at_level(&IMAGES[SLOT], &Look::of(x[0]).sampling(), uv, x[3].into())
+    lookup::at_level(&IMAGES[SLOT], &Look::from_bits(x[0]).sampling(), uv, x[3].into())
 }
 
 fn gradient(x: &[f32]) -> [f64; 2] {
-    let look = Look::of(x[0]);
+    let look = Look::from_bits(x[0]);
     lookup::gradient(&IMAGES[HEIGHT], &look.sampling(), wide(&x[1..]), x[3].into(), look.channel())
 }
 
@@ -200,7 +200,7 @@ fn gradient(x: &[f32]) -> [f64; 2] {
 fn of_gradient(x: &[f32], expected: &[f64]) -> Vec<f64> {
     let uv = wide(&x[1..]);
     let d = f64::from(x[3]).clamp(0.0, (IMAGES[HEIGHT].levels().len() - 1) as f64);
-    let texel = if Look::of(x[0]).sampling().levels == LevelFilter::None { 1.0 } else { d.exp2() };
+    let texel = if Look::from_bits(x[0]).sampling().levels == LevelFilter::None { 1.0 } else { d.exp2() };
     let size = IMAGES[HEIGHT].size().map(f64::from);
     let blur = size.map(|side| ULP * (4.5 * side + 11.0 * texel));
     let value = of_place(HEIGHT, uv, blur, |uv| at_level::<HEIGHT>(x, uv)).into_iter().fold(0.0, f64::max);

@@ -34,7 +34,7 @@ fn too_far(gpu: &Gpu, bound: &Bound, maps: &str, row: &Row) -> Option<String> {
 }
 
 #[test]
-fn each_function_of_maps_gives_what_its_twin_gives() {
+fn each_function_of_maps_matches_its_twin() {
     let gpu = Gpu::open_headless().expect("an adapter");
     let bound = bound(&gpu.device, &gpu.queue);
     let mut failures: Vec<String> = rows().iter().filter_map(|row| too_far(&gpu, &bound, MAPS, row)).collect();

@@ -76,7 +76,7 @@ fn of_covariance(x: &[f32], e: &[f64]) -> Vec<f64> {
     (0..3).map(|k| ULP * s * s * gross[k] + 2.0 * ULP * e[k].abs()).collect()
 }
 
-/// What s·Σ + I is known to moves its determinant, by which all is divided.
+/// The error of s·Σ + I moves its determinant, by which all is divided.
 fn of_lobe(x: &[f32], e: &[f64]) -> Vec<f64> {
     let s = f64::from(x[3]);
     let [xx, xy, yy] = wide::<3>(x).map(|number| (s * number).clamp(-1e12, 1e12));

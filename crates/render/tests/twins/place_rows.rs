@@ -22,8 +22,8 @@ struct Placed {
 }
 
 impl Placed {
-    fn of(x: &[f32]) -> Self {
-        let look = Look::of(x[1]);
+    fn from_input(x: &[f32]) -> Self {
+        let look = Look::from_bits(x[1]);
         Self { slot: x[0] as usize, look, uv: of_set(look, x, 2), ways: [6, 10].map(|at| of_set(look, x, at)) }
     }
 
@@ -97,15 +97,15 @@ macro_rules! placed {
 }
 
 pub(crate) fn place_rows() -> Vec<Row> {
-    let filtered: fn(&[f32]) -> Vec<f64> = |x| Placed::of(x).filtered().to_vec();
-    let of_filtered: fn(&[f32], &[f64]) -> Vec<f64> = |x, _| vec![Placed::of(x).of_filtered(); 4];
+    let filtered: fn(&[f32]) -> Vec<f64> = |x| Placed::from_input(x).filtered().to_vec();
+    let of_filtered: fn(&[f32], &[f64]) -> Vec<f64> = |x, _| vec![Placed::from_input(x).of_filtered(); 4];
     let factor: fn(&[f32]) -> Vec<f64> = |x| {
         let a = amount_of(x[0] as usize);
-        Placed::of(x).filtered().map(|t| 1.0 + a * (t - 1.0)).to_vec()
+        Placed::from_input(x).filtered().map(|t| 1.0 + a * (t - 1.0)).to_vec()
     };
     let of_factor: fn(&[f32], &[f64]) -> Vec<f64> = |x, _| {
         let a = amount_of(x[0] as usize).abs();
-        vec![a * Placed::of(x).of_filtered() + 3.0 * ULP * (1.0 + 2.0 * a); 4]
+        vec![a * Placed::from_input(x).of_filtered() + 3.0 * ULP * (1.0 + 2.0 * a); 4]
     };
     vec![
         row(
@@ -119,15 +119,15 @@ pub(crate) fn place_rows() -> Vec<Row> {
             ("place_on", placed!("place_on(u32(s(i, 0)), ", "")),
             Kind::Pair,
             inputs::placed(),
-            |x| Placed::of(x).place().to_vec(),
-            |x, _| Placed::of(x).gross().map(|gross| 3.0 * ULP * gross + LEAST).to_vec(),
+            |x| Placed::from_input(x).place().to_vec(),
+            |x, _| Placed::from_input(x).gross().map(|gross| 3.0 * ULP * gross + LEAST).to_vec(),
         ),
         row(
             ("level_on", placed!("level_on(u32(s(i, 0)), ", "")),
             Kind::Scalar,
             inputs::placed(),
-            |x| vec![Placed::of(x).level()],
-            |x, _| vec![Placed::of(x).of_level()],
+            |x| vec![Placed::from_input(x).level()],
+            |x, _| vec![Placed::from_input(x).of_level()],
         ),
         // The footprint of a point has no logarithm: whatever an adapter makes of it, the image is enlarged.
         row(
@@ -141,7 +141,7 @@ pub(crate) fn place_rows() -> Vec<Row> {
             ("at_footprint", placed!("at_footprint(height_image, 7u, ", "")),
             Kind::Texel,
             inputs::placed_on(HEIGHT),
-            |x| Placed::of(x).at_footprint().to_vec(),
+            |x| Placed::from_input(x).at_footprint().to_vec(),
             of_filtered,
         ),
         row(

@@ -1,5 +1,4 @@
-//! What the functions of `by_shape.wgsl` are called with: every edge of their definitions, and numbers over the whole
-//! range.
+//! Arguments for the functions of `by_shape.wgsl`: every edge of their definitions, and numbers over the whole range.
 
 use crate::images::{IMAGES, Look, WRAPS};
 use crate::inputs::{Input, between, input, magnitude, many};
@@ -162,7 +161,7 @@ pub(crate) fn reaches() -> Vec<Input> {
     })
 }
 
-/// What is beyond, a place, a level, and both ways of an ellipse in texels of the level.
+/// The wrap modes, a position, a level, and both axes of an ellipse in texels of the level.
 pub(crate) fn in_ellipses(slot: usize) -> Vec<Input> {
     let count = IMAGES[slot].levels().len();
     many([], 600, |random| {

@@ -91,7 +91,7 @@ fn of_lookup(
 fn parts(slot: usize, x: &[f32]) -> (Look, [f64; 2], [[f64; 2]; 2]) {
     let size = IMAGES[slot].size().map(f64::from);
     let way = |at: usize| std::array::from_fn(|k| f64::from(x[at + k]) / size[k]);
-    (Look::of(x[0]), wide(&x[1..]), [way(3), way(5)])
+    (Look::from_bits(x[0]), wide(&x[1..]), [way(3), way(5)])
 }
 
 pub(crate) fn looked_up<const SLOT: usize>(x: &[f32]) -> Vec<f64> {
@@ -205,7 +205,7 @@ type WayPair = [[f64; 2]; 2];
 
 /// The place of a fragment on the image of heights, and its ways, each with the largest that its sums could be.
 fn placed(x: &[f32]) -> (Look, [[f64; 2]; 2], [WayPair; 2]) {
-    let look = Look::of(x[1]);
+    let look = Look::from_bits(x[1]);
     let rows = rows_of(HEIGHT);
     let gross = rows.map(|row| row.map(f64::abs));
     let uv = of_set(look, x, 2);
@@ -239,7 +239,7 @@ fn footprint_rows() -> Vec<Row> {
             ("shape_of", "f32(shape_of(u32(s(i, 0))))"),
             Kind::Scalar,
             inputs::looks(),
-            |x| vec![Look::of(x[0]).shape() as f64],
+            |x| vec![Look::from_bits(x[0]).shape() as f64],
             exact,
         ),
         row(
@@ -277,7 +277,7 @@ fn footprint_rows() -> Vec<Row> {
             ("reduced", "f32(reduced(u32(s(i, 0))))"),
             Kind::Scalar,
             inputs::looks(),
-            |x| vec![Look::of(x[0]).reduced().bits().into()],
+            |x| vec![Look::from_bits(x[0]).reduced().bits().into()],
             exact,
         ),
     ]

@@ -24,7 +24,7 @@ fn too_far(gpu: &Gpu, bound: &Bound, shapes: &str, row: &Row) -> Option<String> 
 }
 
 #[test]
-fn each_function_of_by_shape_gives_what_its_twin_gives() {
+fn each_function_of_by_shape_matches_its_twin() {
     let gpu = Gpu::open_headless().expect("an adapter");
     let bound = bound(&gpu.device, &gpu.queue);
     let failures: Vec<String> = rows().iter().filter_map(|row| too_far(&gpu, &bound, SHAPES, row)).collect();

@@ -1,7 +1,7 @@
 //! The table of the functions of solids.wgsl: twins of `halfway_texture::noise` and `halfway_texture::solid`. Of what
 //! these keep to themselves the definition is written out here.
 
-use halfway_texture::noise::{LEAST_WIDTH, checker, fractal, gradient_noise, hash, left, marble, wood};
+use halfway_texture::noise::{LEAST_WIDTH, checker, fade, fractal, gradient_noise, hash, marble, wood};
 use halfway_texture::solid::{SolidKind, solid_value};
 use std::f64::consts::{PI, TAU};
 
@@ -190,7 +190,7 @@ pub(crate) fn solid_rows() -> Vec<Row> {
             |x| vec![gradient_noise(wide(x))],
             |_, _| vec![40.0 * ULP],
         ),
-        row(("left", "left(s(i, 4))"), Kind::Scalar, points(), |x| vec![left(x[4].into())], |_, _| vec![8.0 * ULP]),
+        row(("left", "fade(s(i, 4))"), Kind::Scalar, points(), |x| vec![fade(x[4].into())], |_, _| vec![8.0 * ULP]),
         row(
             ("fractal", "fractal(v(i, 0), u32(s(i, 3)), s(i, 4))"),
             Kind::Scalar,

@@ -11,7 +11,7 @@ use crate::{far_of, named, parsed};
 
 const SOLIDS: &str = include_str!("../../src/gpu/shaders/solids.wgsl");
 
-/// What the shader around a call needs besides.
+/// The other text that the shader around a call needs.
 const LIGHT: &str = include_str!("../../src/gpu/shaders/lighting.wgsl");
 
 fn too_far(gpu: &Gpu, solids: &str, row: &Row) -> Option<String> {
@@ -20,7 +20,7 @@ fn too_far(gpu: &Gpu, solids: &str, row: &Row) -> Option<String> {
 }
 
 #[test]
-fn each_function_of_solids_gives_what_its_twin_gives() {
+fn each_function_of_solids_matches_its_twin() {
     let gpu = Gpu::open_headless().expect("an adapter");
     let failures: Vec<String> = solid_rows().iter().filter_map(|row| too_far(&gpu, SOLIDS, row)).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
@@ -39,7 +39,7 @@ const FAULTS: [(&str, &str, &str); 25] = [
     ("fractal", "min(octaves, MOST_OCTAVES)", "min(octaves, 8u)"),
     ("fractal", "f32(octave) * 0.37", "f32(octave) * 0.3701"),
     ("fractal", "amplitude *= 0.5", "amplitude *= 0.5001"),
-    ("fractal", "weight = left(frequency * abs(width))", "weight = left(0.5 * frequency * abs(width))"),
+    ("fractal", "weight = fade(frequency * abs(width))", "weight = fade(0.5 * frequency * abs(width))"),
     ("sine_of_turns", "abs(x) <= 0.25", "abs(x) <= 0.4"),
     ("sine_of_turns", "1.0 / 362880.0 - z", "1.0 / 362880.0 + z"),
     ("wave", "w >= 1.0", "w >= 2.0"),

@@ -15,7 +15,7 @@ pub(crate) struct Row {
     /// The WGSL expression.
     pub(crate) call: &'static str,
     pub(crate) kind: Kind,
-    /// What the pipeline is specialised for.
+    /// The overrides that the pipeline is specialised for.
     pub(crate) constants: &'static [(&'static str, f64)],
     pub(crate) inputs: Vec<Input>,
     /// The Rust function of the same name, in f64, with the same input.
@@ -92,8 +92,8 @@ fn each(expected: &[f64], allowed: f64) -> Vec<f64> {
     vec![allowed; expected.len()]
 }
 
-/// What WGSL grants `pow(x, e)`, which is `exp2(e · log2(x))`: 2⁻²¹ for a logarithm of x in [0.5, 2], else 3 ULP, and
-/// 3 + 2·|e · log2(x)| ULP for the exponential.
+/// The error that WGSL allows `pow(x, e)`, which is `exp2(e · log2(x))`: 2⁻²¹ for a logarithm of x in [0.5, 2], else 3
+/// ULP, and 3 + 2·|e · log2(x)| ULP for the exponential.
 fn of_power(x: f64, e: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     if x == 0.0 {
@@ -397,7 +397,7 @@ pub(crate) fn constants() -> Vec<(&'static str, f32)> {
     constants
 }
 
-/// What an input is, for a message.
+/// An input in words, for a message.
 pub(crate) fn described(input: &Input) -> String {
     let last = input.iter().rposition(|&x| x != 0.0).unwrap_or(0);
     format!("{:?}", &input[..=last.max(P.min(N))])

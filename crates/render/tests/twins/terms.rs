@@ -19,7 +19,7 @@ macro_rules! shader {
     };
 }
 
-/// What the file needs, where it has images.
+/// The files that the text needs, if it has images.
 static BEFORE: LazyLock<[&str; 7]> = LazyLock::new(|| {
     [
         &LIGHTING,
@@ -60,7 +60,7 @@ fn switches(mapped: bool) -> Vec<(&'static str, bool)> {
 const ULP: f64 = f32::EPSILON as f64;
 const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
-/// What arrives, a material, and a color.
+/// The arriving light, a material, and a color.
 #[derive(Clone)]
 struct Lit {
     arriving: Irradiance<f64>,
@@ -69,7 +69,7 @@ struct Lit {
 }
 
 impl Lit {
-    fn of(x: &[f32]) -> Self {
+    fn from_input(x: &[f32]) -> Self {
         let arriving = Irradiance { ambient: wide(x), diffuse: wide(&x[3..]), specular: wide(&x[6..]) };
         let (kd, ks, ka) = (wide(&x[12..]), wide(&x[15..]), wide(&x[18..]));
         Self {
@@ -88,7 +88,7 @@ impl Lit {
         self
     }
 
-    /// What the material gives back, under the color.
+    /// The light that the material reflects, multiplied by the color.
     fn sum(&self) -> [f64; 3] {
         let Coefficients { ka, kd, .. } = self.material;
         reflected(&self.arriving, &Coefficients { ka: mul(ka, self.color), kd: mul(kd, self.color), ..self.material })
@@ -142,7 +142,7 @@ fn output_row(constants: &'static [(&'static str, f64)], twin: fn(&[f32]) -> Vec
     Row { function: "output", call, kind: Kind::Texel, constants, inputs: inputs(), twin, allowed: exactly }
 }
 
-/// What is below 0 is an adapter's extrapolation.
+/// Numbers below 0 are an adapter's extrapolation.
 fn not_below_0(x: &[f32]) -> Vec<f64> {
     x.iter().map(|&x| f64::from(x.max(0.0))).collect()
 }
@@ -170,9 +170,9 @@ fn mapped_rows() -> Vec<Row> {
         allowed: exactly,
     };
     vec![
-        parts_row(NOTHING, |x| Lit::of(x).parts()),
-        parts_row(NO_AMBIENT, |x| Lit::of(x).only([0.0, 1.0, 1.0]).parts()),
-        parts_row(NO_SPECULAR, |x| Lit::of(x).only([1.0, 1.0, 0.0]).parts()),
+        parts_row(NOTHING, |x| Lit::from_input(x).parts()),
+        parts_row(NO_AMBIENT, |x| Lit::from_input(x).only([0.0, 1.0, 1.0]).parts()),
+        parts_row(NO_SPECULAR, |x| Lit::from_input(x).only([1.0, 1.0, 0.0]).parts()),
         Row {
             function: "all_parts",
             call: "all_parts(Parts(v(i, 0), v(i, 3), v(i, 6)))",
@@ -237,7 +237,7 @@ fn too_far(gpu: &Gpu, text: &str, row: &Row) -> Option<String> {
 }
 
 #[test]
-fn each_sum_of_terms_is_what_the_equations_give() {
+fn each_sum_of_terms_matches_the_equations() {
     let gpu = Gpu::open_headless().expect("an adapter");
     let failures: Vec<String> = rows()
         .iter()

@@ -31,7 +31,7 @@ pub(crate) fn maps(source: &SourceMaterial) -> Vec<(MapKind, &SourceMap)> {
     all.into_iter().filter_map(|(kind, map)| Some((kind, map.as_ref()?))).collect()
 }
 
-/// How it is looked up.
+/// Its sampling.
 pub(crate) fn sampling(source: &SourceMap) -> Sampling {
     let filter = |smooth| if smooth { TexelFilter::Bilinear } else { TexelFilter::Nearest };
     Sampling {
@@ -50,7 +50,7 @@ pub(crate) fn sampling(source: &SourceMap) -> Sampling {
     }
 }
 
-/// Where the coordinates of a mesh lie on it.
+/// The transform from the coordinates of a mesh to its own.
 pub(crate) fn transform(source: &SourceMap) -> UvTransform {
     UvTransform { offset: source.offset, rotation: source.rotation, scale: source.scale }
 }

@@ -72,7 +72,7 @@ pub fn shininess_from_roughness(roughness: f32) -> f32 {
 }
 
 fn check(source: &MetallicRoughness) -> Result<(), InvalidValue> {
-    let fields = Fields::of("MetallicRoughness");
+    let fields = Fields::for_owner("MetallicRoughness");
     let [red, green, blue, alpha] = source.base_color;
     fields.channels("base_color", [red, green, blue])?;
     fields.unit_interval("base_color.alpha", alpha)?;

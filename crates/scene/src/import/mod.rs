@@ -1,8 +1,8 @@
 //! Materials and lights of model files, as components.
 //!
-//! `halfway_mesh` reads files and `halfway_lighting` knows the equations; this is where the two meet. What a format
-//! says exactly is taken exactly, what it leaves open is decided here and written down, and what had to be changed
-//! comes back as a [`Warning`].
+//! `halfway_mesh` reads files and `halfway_lighting` has the equations; this module translates between them. It follows
+//! the exact statements of a format exactly, decides and documents the questions that the format leaves open, and
+//! returns each change as a [`Warning`].
 //!
 //! ```no_run
 //! use halfway_scene::import::ModelMaterial;

@@ -65,7 +65,7 @@ pub fn from_mtl(mtl: &MtlMaterial) -> Result<(Material, Vec<Warning>), InvalidVa
 }
 
 fn check(mtl: &MtlMaterial) -> Result<(), InvalidValue> {
-    let fields = Fields::of("MTL");
+    let fields = Fields::for_owner("MTL");
     for (key, value) in [("Ka", mtl.ka), ("Kd", mtl.kd), ("Ks", mtl.ks), ("Ke", mtl.ke)] {
         value.map_or(Ok(()), |rgb| fields.channels(key, rgb))?;
     }

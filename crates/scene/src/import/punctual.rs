@@ -29,7 +29,7 @@ pub const RADIANCE_SCALE: f32 = FRAC_1_PI;
 /// # Errors
 /// A number is outside its range or not finite, as `PunctualLight.intensity: …`.
 pub fn from_punctual(source: &SourceLight, scale: f32) -> Result<LightComponent, InvalidValue> {
-    let fields = Fields::of("PunctualLight");
+    let fields = Fields::for_owner("PunctualLight");
     fields.channels("color", source.color)?;
     fields.non_negative("intensity", source.intensity)?;
     fields.non_negative("scale", scale)?;

@@ -158,7 +158,7 @@ fn the_page_has_the_keys_defaults_and_ranges_of_the_schema() {
 }
 
 #[test]
-fn the_page_has_the_keys_defaults_and_ranges_of_every_kind_of_light() {
+fn the_page_has_the_keys_and_defaults_of_every_light() {
     let (page, schema) = (page(), schema());
     let (shared, own) = (table(&page, "## Lights", 0), table(&page, "## Lights", 1));
     let kinds = schema["$defs"]["LightEntry"]["oneOf"].as_array().expect("kinds of light");
@@ -251,7 +251,7 @@ fn every_word_of_the_schema_is_accepted() {
 
 /// A page that says something else is found out: the comparison itself can fail.
 #[test]
-fn a_page_that_says_something_else_is_found_out() {
+fn a_page_that_contradicts_the_schema_is_found() {
     let (page, schema) = (page(), schema());
     for (right, wrong) in
         [("| `45` |", "| `50` |"), ("above 0 and below 180", "from 0 to 180"), ("| `near` |", "| `close` |")]

@@ -28,7 +28,7 @@ fn save(folder: &Path, name: &str, size: [u32; 2], texel: [f32; 3]) {
 }
 
 #[test]
-fn environments_are_read_and_broken_ones_are_shown_and_told() {
+fn broken_environments_are_warnings_and_checkers() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("environments");
     std::fs::create_dir_all(&folder).unwrap();
     save(&folder, "sky.exr", [8, 4], [2.0, 1.0, 0.5]);

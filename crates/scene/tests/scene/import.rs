@@ -73,7 +73,7 @@ fn full_material() -> Material {
 }
 
 #[test]
-fn mtl_is_taken_as_it_says() {
+fn mtl_values_are_taken_unchanged() {
     let none = MtlMaterial::default();
     let rows = [
         ("everything", full(), full_material(), vec![]),
@@ -204,7 +204,7 @@ fn mtl_nonsense_is_refused_by_key() {
 }
 
 #[test]
-fn warnings_say_what_was_done() {
+fn warnings_describe_every_approximation() {
     let rows = [
         (
             Warning::IllumNeedsRays { illum: 5 },

@@ -21,7 +21,7 @@ fn scene(map: &str) -> SceneFile {
 }
 
 #[test]
-fn an_image_is_read_and_an_unreadable_one_is_a_warning_and_a_checker() {
+fn an_unreadable_image_is_a_warning_and_a_checker() {
     let dir = std::env::temp_dir().join(format!("halfway-scene-maps-{}", std::process::id()));
     std::fs::create_dir_all(&dir).unwrap();
     image::RgbImage::from_pixel(5, 3, image::Rgb([255, 0, 0])).save(dir.join("red.png")).unwrap();
@@ -256,7 +256,7 @@ fn every_image_of_a_gltf_file_is_on_its_part() {
 }
 
 #[test]
-fn what_is_wrong_with_maps_is_said_by_key() {
+fn invalid_maps_are_refused_by_key() {
     for (maps, says) in [
         (r#"{"color": {"path": ""}}"#, "objects[0].maps.color.path"),
         (r#"{"colour": {"path": "a.png"}}"#, "colour"),

@@ -35,7 +35,7 @@ fn a_model_is_one_entity_with_named_children() {
 }
 
 #[test]
-fn a_missing_model_is_told_on_its_entity() {
+fn a_missing_model_is_an_error_on_its_entity() {
     let mut app = app();
     let world = app.world_mut();
     let root = world.spawn(ModelRoot::new("no/such.obj")).id();

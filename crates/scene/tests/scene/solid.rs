@@ -40,7 +40,7 @@ fn a_solid_is_read_written_and_spawned() {
 }
 
 #[test]
-fn what_is_wrong_with_a_solid_is_said_by_key() {
+fn invalid_solids_are_refused_by_key() {
     for (solid, says) in [
         (r#"{"kind": "granite"}"#, r#"expected "checker", "marble", "wood" or "noise""#),
         (r#"{"octaves": 0}"#, "`objects[0].solid.octaves`: is 0; expected 1 to 16"),

@@ -98,7 +98,7 @@ fn the_camera_carries_the_intensity_policy() {
 }
 
 #[test]
-fn objects_carry_their_looks() {
+fn objects_carry_their_appearance() {
     let (app, spawned) = spawned(
         r#"{"objects": [
             {"name": "plain", "mesh": {"box": {}}},
@@ -154,7 +154,7 @@ fn a_sheared_matrix_reaches_the_object_unchanged() {
 }
 
 #[test]
-fn lights_are_what_the_file_says() {
+fn lights_have_the_files_values() {
     let (app, spawned) = spawned(
         r#"{"lights": [
             {"kind": "point", "position": [1, 2, 3], "ambient": [0.1, 0, 0], "diffuse": [0, 0.5, 0],
@@ -217,7 +217,7 @@ fn a_cone_on_a_light_at_infinity_is_one_factor() {
 }
 
 #[test]
-fn lights_move_with_what_they_are_attached_to() {
+fn lights_move_with_their_parents() {
     let (mut app, spawned) = spawned(
         r#"{"camera": {"position": [0, 0, 5]},
             "objects": [{"name": "cart", "mesh": {"box": {}}, "transform": {"translation": [10, 0, 0]}}],
@@ -312,7 +312,7 @@ fn a_material_of_the_scene_wins_over_the_models() {
 }
 
 #[test]
-fn what_cannot_be_spawned_leaves_the_world_alone() {
+fn an_invalid_scene_leaves_the_world_unchanged() {
     let scene = SceneFile::from_json(
         r#"{"objects": [{"mesh": {"box": {}}}, {"mesh": {"path": "missing/model.obj"}}]}"#,
         "test",

@@ -39,7 +39,7 @@ fn opacities_and_cameras_that_are_not_shown_are_warned_of() {
     let glass = r#""mesh": {"path": "glass.obj"}"#;
     let opacity = "objects[0]: 1 parts have an opacity below 1, which is not shown without \"blend\": true";
     assert_eq!(warnings(glass), [opacity]);
-    // Whoever decides about blending or the material is not told.
+    // A file that sets the blending or the material gets no warning.
     for decided in [r#""blend": true"#, r#""blend": false"#, r#""material": "jade""#] {
         assert_eq!(warnings(&format!("{glass}, {decided}")), [""; 0], "{decided}");
     }

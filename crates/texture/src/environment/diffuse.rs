@@ -76,7 +76,7 @@ impl Harmonics {
         let mut sum = [T::zero(); 4];
         for ((coefficient, share), value) in self.coefficients.iter().zip(SHARES).zip(basis) {
             for (sum, number) in sum.iter_mut().zip(coefficient) {
-                *sum = *sum + T::of(share * number) * value;
+                *sum = *sum + T::from_f64(share * number) * value;
             }
         }
         sum
@@ -99,7 +99,7 @@ const SHARES: [f64; 9] = [1.0, 2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 0.25, 0.25, 0.25
 
 /// The real spherical harmonics of order 0 to 2 in a direction of length 1.
 fn basis<T: Number>([x, y, z]: [T; 3]) -> [T; 9] {
-    let of = |square: f64| T::of((square / PI).sqrt());
+    let of = |square: f64| T::from_f64((square / PI).sqrt());
     let (c0, c1, c2) = (of(0.25), of(0.75), of(3.75));
     let [c3, c4] = [of(5.0 / 16.0), of(15.0 / 16.0)];
     let one = T::one();
@@ -110,7 +110,7 @@ fn basis<T: Number>([x, y, z]: [T; 3]) -> [T; 9] {
         c1 * x,
         c2 * x * y,
         c2 * y * z,
-        c3 * (T::of(3.0) * z * z - one),
+        c3 * (T::from_f64(3.0) * z * z - one),
         c2 * x * z,
         c4 * (x * x - y * y),
     ]

@@ -56,14 +56,14 @@ pub fn on_cube<T: Number>([x, y, z]: [T; 3]) -> (usize, [T; 2]) {
     } else {
         (5, -x, -y, c)
     };
-    let half = T::of(0.5);
+    let half = T::from_f64(0.5);
     let place = |s: T| if m > zero && (s / m).is_finite() { half * (s / m + T::one()) } else { half };
     (face, [place(s), place(t)])
 }
 
 /// The direction of a point on a face, not normalized. Points outside 0 to 1 lie on the face's plane, beyond it.
 pub fn from_cube<T: Number>(face: usize, [u, v]: [T; 2]) -> [T; 3] {
-    let two = T::of(2.0);
+    let two = T::from_f64(2.0);
     let (one, s, t) = (T::one(), two * u - T::one(), two * v - T::one());
     match face {
         0 => [one, -t, -s],
@@ -77,16 +77,16 @@ pub fn from_cube<T: Number>(face: usize, [u, v]: [T; 2]) -> [T; 3] {
 
 /// The point of an equirectangular image for a direction.
 pub fn on_equirectangular<T: Number>([x, y, z]: [T; 3]) -> [T; 2] {
-    let turn = T::of(std::f64::consts::TAU);
-    let u = T::of(0.5) + x.arc_tangent(-z) / turn;
-    let v = (x * x + z * z).sqrt().arc_tangent(y) / (T::of(0.5) * turn);
+    let turn = T::from_f64(std::f64::consts::TAU);
+    let u = T::from_f64(0.5) + x.arc_tangent(-z) / turn;
+    let v = (x * x + z * z).sqrt().arc_tangent(y) / (T::from_f64(0.5) * turn);
     [u, v]
 }
 
 /// The direction, of length 1, of a point on an equirectangular image.
 pub fn from_equirectangular<T: Number>([u, v]: [T; 2]) -> [T; 3] {
-    let pi = T::of(std::f64::consts::PI);
-    let (longitude, from_pole) = ((T::of(2.0) * u - T::one()) * pi, v * pi);
+    let pi = T::from_f64(std::f64::consts::PI);
+    let (longitude, from_pole) = ((T::from_f64(2.0) * u - T::one()) * pi, v * pi);
     let ring = from_pole.sine();
     [longitude.sine() * ring, from_pole.cosine(), -longitude.cosine() * ring]
 }
@@ -98,13 +98,13 @@ pub fn on_mirror_ball<T: Number>(direction: [T; 3]) -> [T; 2] {
     let ring = x * x + y * y;
     let up = if z < T::zero() { ring / (T::one() - z) } else { T::one() + z };
     let length = (ring + up * up).sqrt();
-    let half = T::of(0.5);
+    let half = T::from_f64(0.5);
     if length > T::zero() { [half + half * x / length, half - half * y / length] } else { [T::one(), half] }
 }
 
 /// The direction, of length 1, of a point on a mirror ball's image; −Z, the rim's, outside its circle.
 pub fn from_mirror_ball<T: Number>([u, v]: [T; 2]) -> [T; 3] {
-    let two = T::of(2.0);
+    let two = T::from_f64(2.0);
     let (x, y) = (two * u - T::one(), T::one() - two * v);
     let up = (T::one() - x * x - y * y).max(T::zero()).sqrt();
     if up == T::zero() {

@@ -110,7 +110,7 @@ impl EnvironmentMap {
 
     /// D: the level whose texels have this angle; below 0 if those of the first are wider.
     pub fn level_of<T: Number>(&self, angle: T) -> T {
-        angle.binary_logarithm() - T::of(libm::log2(self.angle))
+        angle.binary_logarithm() - T::from_f64(libm::log2(self.angle))
     }
 
     /// Whether one is a clone of the other.
@@ -129,17 +129,17 @@ impl EnvironmentMap {
         let width = side as usize + 2;
         let first = start + face * width * width;
         // The border's texel has the number 0.
-        let [x, y] = uv.map(|u| u * T::of(side.into()) + T::of(0.5));
+        let [x, y] = uv.map(|u| u * T::from_f64(side.into()) + T::from_f64(0.5));
         let [i, j] = [x, y].map(|x| x.floor().to_usize().unwrap_or_default().min(side as usize));
-        let parts = [(x, i), (y, j)].map(|(x, i)| x - T::of(i as f64));
+        let parts = [(x, i), (y, j)].map(|(x, i)| x - T::from_f64(i as f64));
         mean_of_four(parts, |[x, y]| {
             let [r, g, b, _] = self.texels[first + (j + y) * width + i + x];
-            [r, g, b].map(|number| T::of(number.into()))
+            [r, g, b].map(|number| T::from_f64(number.into()))
         })
     }
 }
 
-/// An environment as a frame sees it: around the eye.
+/// An environment in the eye space of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurroundingsData {
     /// Its light.
@@ -148,14 +148,14 @@ pub struct SurroundingsData {
     pub strength: f32,
     /// The rows of the rotation from eye space to the environment.
     pub rows: [[f32; 3]; 3],
-    /// The polynomial of `halfway_lighting::equations::mean_light`.
+    /// The coefficients of `halfway_lighting::equations::mean_light`.
     pub mean: [[f32; 3]; 9],
-    /// The level that is seen where nothing is drawn, in place of the clear color.
+    /// The level that is drawn as the sky, in place of the clear color; `None` without a sky.
     pub sky: Option<f32>,
 }
 
 impl SurroundingsData {
-    /// A direction of eye space, in the environment.
+    /// Rotates a direction of eye space into the environment.
     pub fn direction(&self, d: [f32; 3]) -> [f32; 3] {
         self.rows.map(|[x, y, z]| x * d[0] + y * d[1] + z * d[2])
     }

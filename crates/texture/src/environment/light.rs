@@ -19,7 +19,7 @@ use super::drawn::EnvironmentMap;
 /// as they do for lights. It is evaluated at each fragment, whatever the shading; under flat shading with the
 /// triangle's normal.
 ///
-/// A scene has one: of several, that of the first entity counts, and the renderer warns.
+/// A scene has one: of several, that of the first entity is used, and the renderer warns.
 /// [`TexturePlugin`](crate::TexturePlugin) registers it.
 ///
 /// ```

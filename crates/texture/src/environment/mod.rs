@@ -147,14 +147,14 @@ impl Environment {
             let beyond = y < 0 || y >= height;
             let row = wrapped_index(Wrap::Mirror, y, at.height);
             let column = wrapped_index(Wrap::Repeat, if beyond { x + i64::from(at.width / 2) } else { x }, at.width);
-            texels[row * at.width as usize + column].map(|number| T::of(number.into()))
+            texels[row * at.width as usize + column].map(|number| T::from_f64(number.into()))
         })
     }
 
     fn in_cube_level<T: Number>(&self, direction: [T; 3], level: usize) -> [T; 4] {
         let (face, uv) = on_cube(direction);
         let side = self.images[0].levels()[level].width;
-        bilinear(uv, [side; 2], |at| self.cube_texel(level, face, at).map(|number| T::of(number.into())))
+        bilinear(uv, [side; 2], |at| self.cube_texel(level, face, at).map(|number| T::from_f64(number.into())))
     }
 
     /// A texel of a cube map's level, on a face or at most one beyond its edge: there, that of the next face.
@@ -184,7 +184,7 @@ impl Environment {
 
 /// The bilinear mean of four texels.
 fn bilinear<T: Number>(uv: [T; 2], size: [u32; 2], texel: impl Fn([i64; 2]) -> [T; 4]) -> [T; 4] {
-    let [x, y] = [0, 1].map(|axis| uv[axis] * T::of(size[axis].into()) - T::of(0.5));
+    let [x, y] = [0, 1].map(|axis| uv[axis] * T::from_f64(size[axis].into()) - T::from_f64(0.5));
     let ([i, j], [f, g]) = ([x, y].map(|x| x.floor().to_i64().unwrap_or(0)), [x - x.floor(), y - y.floor()]);
     mean_of_four([f, g], |[x, y]| texel([i + x as i64, j + y as i64]))
 }

@@ -17,7 +17,7 @@ pub(super) fn in_ripmap<T: Number>(
     let counts = ripmap.counts();
     let sides = footprint.sides();
     let [(i, along_u), (j, along_v)] = [0, 1].map(|axis| {
-        let last = T::of((counts[axis] - 1) as f64);
+        let last = T::from_f64((counts[axis] - 1) as f64);
         let d = sides[axis].max(T::one()).binary_logarithm().max(T::zero()).min(last);
         (d.floor().to_usize().unwrap_or(0), d - d.floor())
     });
@@ -59,7 +59,7 @@ pub(super) fn mean<T: Number>(
         }
     }
     let area = columns.length * rows.length;
-    std::array::from_fn(|k| T::of(sums.mean()[k] + sum[k] / area))
+    std::array::from_fn(|k| T::from_f64(sums.mean()[k] + sum[k] / area))
 }
 
 /// The integral over an interval of an axis, which may reach beyond the image, as a sum of integrals from 0 to points

@@ -20,12 +20,12 @@ const FARTHEST: f64 = 64.0;
 
 /// The mean over the ellipse.
 pub(super) fn mean<T: Number>(pyramid: &Pyramid, wrap: [Wrap; 2], uv: [T; 2], footprint: &FootprintShape<T>) -> [T; 4] {
-    let short = footprint.short.max(footprint.long / T::of(MOST_ECCENTRIC)).max(T::one());
+    let short = footprint.short.max(footprint.long / T::from_f64(MOST_ECCENTRIC)).max(T::one());
     let last = pyramid.levels().len() - 1;
     let d = short.binary_logarithm().max(T::zero());
     let finer = d.floor().to_usize().unwrap_or(last);
     if finer >= last {
-        return pyramid.level(last)[0].map(|number| T::of(number.into()));
+        return pyramid.level(last)[0].map(|number| T::from_f64(number.into()));
     }
     let part = d - d.floor();
     let of = |level: usize| in_level(pyramid, level, wrap, uv, footprint, short);
@@ -45,30 +45,32 @@ fn in_level<T: Number>(
 ) -> [T; 4] {
     let Level { width, height, .. } = pyramid.levels()[level];
     let texels = pyramid.level(level);
-    let [full_width, full_height] = pyramid.size().map(|side| T::of(side.into()));
-    let scale = [T::of(width.into()) / full_width, T::of(height.into()) / full_height];
+    let [full_width, full_height] = pyramid.size().map(|side| T::from_f64(side.into()));
+    let scale = [T::from_f64(width.into()) / full_width, T::from_f64(height.into()) / full_height];
     let Some(ellipse) = Ellipse::new(footprint, short, scale) else {
         return super::in_level(pyramid, level, wrap, crate::sampling::TexelFilter::Bilinear, uv);
     };
     let reach = ellipse.reach();
-    let middle =
-        [within(wrap[0], uv[0], T::of(width.into()), reach[0]), within(wrap[1], uv[1], T::of(height.into()), reach[1])];
-    let half = T::of(0.5);
+    let middle = [
+        within(wrap[0], uv[0], T::from_f64(width.into()), reach[0]),
+        within(wrap[1], uv[1], T::from_f64(height.into()), reach[1]),
+    ];
+    let half = T::from_f64(0.5);
     let whole = |x: T| x.to_i64().unwrap_or(0);
     let (low, high) = ((middle[1] - reach[1] - half).ceil(), (middle[1] + reach[1] - half).floor());
     let (mut sum, mut weights) = ([T::zero(); 4], T::zero());
     for row in whole(low)..=whole(high) {
-        let y = T::of(row as f64) + half - middle[1];
+        let y = T::from_f64(row as f64) + half - middle[1];
         let Some([left, right]) = ellipse.span(y) else { continue };
         let row = wrapped_index(wrap[1], row, height) * width as usize;
         let (low, high) = ((middle[0] + left - half).ceil(), (middle[0] + right - half).floor());
         for column in whole(low)..=whole(high) {
-            let x = T::of(column as f64) + half - middle[0];
+            let x = T::from_f64(column as f64) + half - middle[0];
             let weight = weight(ellipse.distance(x, y));
             weights = weights + weight;
             let texel = texels[row + wrapped_index(wrap[0], column, width)];
             for (sum, number) in sum.iter_mut().zip(texel) {
-                *sum = *sum + weight * T::of(number.into());
+                *sum = *sum + weight * T::from_f64(number.into());
             }
         }
     }
@@ -97,7 +99,7 @@ impl<T: Number> Ellipse<T> {
         let (round, more) = (short * short, (long - short) * (long + short));
         let [x, y] = scale;
         let [uu, uv, vv] = [(round + more * u * u) * x * x, more * u * v * x * y, (round + more * v * v) * y * y];
-        let [less_u, less_v] = [uu, vv].map(|square| T::of(FARTHEST) / square.sqrt().max(T::of(FARTHEST)));
+        let [less_u, less_v] = [uu, vv].map(|square| T::from_f64(FARTHEST) / square.sqrt().max(T::from_f64(FARTHEST)));
         let [uu, uv, vv] = widened([uu * less_u * less_u, uv * less_u * less_v, vv * less_v * less_v]);
         let determinant = uu * vv - uv * uv;
         let inverse = determinant.recip();
@@ -121,13 +123,13 @@ impl<T: Number> Ellipse<T> {
     }
 
     fn distance(&self, x: T, y: T) -> T {
-        self.a * x * x + T::of(2.0) * self.b * x * y + self.c * y * y
+        self.a * x * x + T::from_f64(2.0) * self.b * x * y + self.c * y * y
     }
 }
 
 /// Moments with both eigenvalues at least 1.
 fn widened<T: Number>([uu, uv, vv]: [T; 3]) -> [T; 3] {
-    let half = T::of(0.5);
+    let half = T::from_f64(0.5);
     let (middle, apart) = (half * (uu + vv), half * (uu - vv));
     let radius = (apart * apart + uv * uv).sqrt();
     let (large, small) = (middle + radius, middle - radius);
@@ -147,14 +149,14 @@ fn widened<T: Number>([uu, uv, vv]: [T; 3]) -> [T; 3] {
 fn weight<T: Number>(r2: T) -> T {
     const OVER_FACTORIALS: [f64; 9] =
         [1.0 / 40320.0, 1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0];
-    let x = T::one() - T::of(2.0) * r2;
-    let power = OVER_FACTORIALS.iter().fold(T::zero(), |sum, c| sum * x + T::of(*c));
-    (power - T::of(std::f64::consts::E.recip())).max(T::zero())
+    let x = T::one() - T::from_f64(2.0) * r2;
+    let power = OVER_FACTORIALS.iter().fold(T::zero(), |sum, c| sum * x + T::from_f64(*c));
+    (power - T::from_f64(std::f64::consts::E.recip())).max(T::zero())
 }
 
 /// A coordinate in texels, reduced to one period of the image, or clamped to within reach of it.
 fn within<T: Number>(wrap: Wrap, u: T, side: T, reach: T) -> T {
-    let two = T::of(2.0);
+    let two = T::from_f64(2.0);
     match wrap {
         Wrap::Repeat => (u - u.floor()) * side,
         Wrap::Mirror => (u - two * (u / two).floor()) * side,

@@ -17,10 +17,10 @@ pub(super) struct FootprintShape<T> {
 impl<T: Number> FootprintShape<T> {
     /// From the derivatives of (u, v) along x and along y of the picture.
     pub(super) fn new(size: [u32; 2], footprint: [[T; 2]; 2]) -> Self {
-        let [width, height] = size.map(|side| T::of(side.into()));
+        let [width, height] = size.map(|side| T::from_f64(side.into()));
         let [a, b] = footprint.map(|[u, v]| [u * width, v * height]);
         let [uu, uv, vv] = [(0, 0), (0, 1), (1, 1)].map(|(i, j)| a[i] * a[j] + b[i] * b[j]);
-        let half = T::of(0.5);
+        let half = T::from_f64(0.5);
         let (middle, apart) = (half * (uu + vv), half * (uu - vv));
         let long = (middle + (apart * apart + uv * uv).sqrt()).sqrt();
         // det(a b) = σ₁σ₂, which loses less precision than the difference of the eigenvalues.
@@ -31,14 +31,14 @@ impl<T: Number> FootprintShape<T> {
 
     /// Whether it is finite and covers at most 10⁹ texels, unlike near a horizon. A footprint of that size can be
     /// squared in single precision.
-    pub(super) fn has_an_end(&self) -> bool {
-        self.moments[0] + self.moments[2] <= T::of(1e18)
+    pub(super) fn is_bounded(&self) -> bool {
+        self.moments[0] + self.moments[2] <= T::from_f64(1e18)
     }
 
     /// The direction of the long axis, of length 1.
     pub(super) fn direction(&self) -> [T; 2] {
         let [uu, uv, vv] = self.moments;
-        let apart = T::of(0.5) * (uu - vv);
+        let apart = T::from_f64(0.5) * (uu - vv);
         let radius = (apart * apart + uv * uv).sqrt();
         // An eigenvector of the larger eigenvalue, in that of its two forms that does not cancel.
         let [u, v] = if apart >= T::zero() { [apart + radius, uv] } else { [uv, radius - apart] };

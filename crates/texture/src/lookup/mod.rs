@@ -38,7 +38,7 @@ use crate::sampling::{Channel, LevelFilter, Sampling, TexelFilter, Wrap};
 /// The floating-point types that filters run in: `f32` and `f64`.
 pub trait Number: Float + Debug + Send + Sync + 'static {
     /// `value` rounded to this type.
-    fn of(value: f64) -> Self;
+    fn from_f64(value: f64) -> Self;
     /// log₂, equal to the bit on every machine.
     #[must_use]
     fn binary_logarithm(self) -> Self;
@@ -57,7 +57,7 @@ pub trait Number: Float + Debug + Send + Sync + 'static {
 }
 
 impl Number for f32 {
-    fn of(value: f64) -> Self {
+    fn from_f64(value: f64) -> Self {
         value as f32
     }
 
@@ -83,7 +83,7 @@ impl Number for f32 {
 }
 
 impl Number for f64 {
-    fn of(value: f64) -> Self {
+    fn from_f64(value: f64) -> Self {
         value
     }
 
@@ -111,9 +111,9 @@ impl Number for f64 {
 /// D = log₂ of the longer side of a footprint, in texels of an image of this size: `footprint` holds the derivatives of
 /// (u, v) along x and along y of the picture.
 pub fn level<T: Number>(size: [u32; 2], footprint: [[T; 2]; 2]) -> T {
-    let [width, height] = size.map(|side| T::of(side.into()));
+    let [width, height] = size.map(|side| T::from_f64(side.into()));
     let [x, y] = footprint.map(|[u, v]| (u * width) * (u * width) + (v * height) * (v * height));
-    T::of(0.5) * x.max(y).binary_logarithm()
+    T::from_f64(0.5) * x.max(y).binary_logarithm()
 }
 
 /// The value of an image at a point, by its [`Sampling`]; `footprint` as in [`level`].
@@ -123,7 +123,7 @@ pub fn filtered<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], f
     }
     let shape = FootprintShape::new(pyramid.size(), footprint);
     let uv = uv.map(finite);
-    if !shape.has_an_end() {
+    if !shape.is_bounded() {
         return at_level(pyramid, sampling, uv, level(pyramid.size(), footprint));
     }
     if shape.long <= T::one() {
@@ -141,7 +141,7 @@ pub fn filtered<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], f
 pub fn at_level<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d: T) -> [T; 4] {
     let Sampling { wrap, magnify, minify, levels } = *sampling;
     let uv = uv.map(finite);
-    let last = T::of((pyramid.levels().len() - 1) as f64);
+    let last = T::from_f64((pyramid.levels().len() - 1) as f64);
     // NaN magnifies.
     if d.is_nan() || d <= T::zero() {
         return in_level(pyramid, 0, wrap, magnify, uv);
@@ -149,7 +149,7 @@ pub fn at_level<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d
     let number = |d: T| d.to_usize().unwrap_or_default();
     match levels.by_level() {
         LevelFilter::None => in_level(pyramid, 0, wrap, minify, uv),
-        LevelFilter::Nearest => in_level(pyramid, number((d + T::of(0.5)).floor().min(last)), wrap, minify, uv),
+        LevelFilter::Nearest => in_level(pyramid, number((d + T::from_f64(0.5)).floor().min(last)), wrap, minify, uv),
         _ => between_levels(pyramid, wrap, minify, uv, d),
     }
 }
@@ -162,7 +162,7 @@ fn between_levels<T: Number>(pyramid: &Pyramid, wrap: [Wrap; 2], filter: TexelFi
 /// Interpolates the values of two of so many levels around D.
 pub(crate) fn between<T: Number, const N: usize>(levels: usize, d: T, level: impl Fn(usize) -> [T; N]) -> [T; N] {
     // `max` drops NaN.
-    let d = d.max(T::zero()).min(T::of((levels - 1) as f64));
+    let d = d.max(T::zero()).min(T::from_f64((levels - 1) as f64));
     let (finer, part) = (d.floor(), d - d.floor());
     let finer = finer.to_usize().unwrap_or_default();
     let a = level(finer);
@@ -189,15 +189,15 @@ pub(crate) fn mean_of_four<T: Number, const N: usize>(parts: [T; 2], texel: impl
 /// B-spline through the texels, which is continuous.
 pub fn gradient<T: Number>(pyramid: &Pyramid, sampling: &Sampling, uv: [T; 2], d: T, channel: Channel) -> [T; 2] {
     let reduced = sampling.levels != LevelFilter::None && d > T::zero();
-    let last = T::of((pyramid.levels().len() - 1) as f64);
+    let last = T::from_f64((pyramid.levels().len() - 1) as f64);
     let texel = if reduced { d.min(last).binary_power() } else { T::one() };
     let number = |uv: [T; 2]| at_level(pyramid, sampling, uv, d)[channel as usize];
     let sides = pyramid.size();
     std::array::from_fn(|axis| {
-        let across = texel / T::of(sides[axis].into());
+        let across = texel / T::from_f64(sides[axis].into());
         let half = |sign: f64| {
             let mut there = uv;
-            there[axis] = there[axis] + T::of(sign) * across;
+            there[axis] = there[axis] + T::from_f64(sign) * across;
             number(there)
         };
         (half(0.5) - half(-0.5)) / across
@@ -231,7 +231,7 @@ fn in_image<T: Number>(
         for (x, of_column) in columns.iter() {
             let texel = texels[y * width as usize + x];
             for (sum, number) in sum.iter_mut().zip(texel) {
-                *sum = *sum + of_row * of_column * T::of(number.into());
+                *sum = *sum + of_row * of_column * T::from_f64(number.into());
             }
         }
     }
@@ -251,12 +251,12 @@ impl<T: Copy> Taps<T> {
 }
 
 fn taps<T: Number>(filter: TexelFilter, wrap: Wrap, u: T, side: u32) -> Taps<T> {
-    let texels = wrapped(wrap, u, T::of(side.into()));
+    let texels = wrapped(wrap, u, T::from_f64(side.into()));
     if filter == TexelFilter::Nearest {
         let at = wrapped_index(Wrap::Clamp, texels.floor().to_i64().unwrap_or(0), side);
         return Taps { each: [(at, T::one()); 4], count: 1 };
     }
-    let x = texels - T::of(0.5);
+    let x = texels - T::from_f64(0.5);
     let (first, f) = (x.floor().to_i64().unwrap_or(0), x - x.floor());
     let (weights, count) = weights(filter, f);
     let first = if count == 2 { first } else { first - 1 };
@@ -266,9 +266,11 @@ fn taps<T: Number>(filter: TexelFilter, wrap: Wrap, u: T, side: u32) -> Taps<T> 
 
 /// The weights of the texels around a point at the fraction `f` between two, and how many there are.
 fn weights<T: Number>(filter: TexelFilter, f: T) -> ([T; 4], usize) {
-    let cubic = |[c3, c2, c1, c0]: [f64; 4]| ((T::of(c3) * f + T::of(c2)) * f + T::of(c1)) * f + T::of(c0);
-    let sixth = |c: [f64; 4]| cubic(c) / T::of(6.0);
-    let half = |c: [f64; 4]| cubic(c) * T::of(0.5);
+    let cubic = |[c3, c2, c1, c0]: [f64; 4]| {
+        ((T::from_f64(c3) * f + T::from_f64(c2)) * f + T::from_f64(c1)) * f + T::from_f64(c0)
+    };
+    let sixth = |c: [f64; 4]| cubic(c) / T::from_f64(6.0);
+    let half = |c: [f64; 4]| cubic(c) * T::from_f64(0.5);
     match filter {
         TexelFilter::Nearest => ([T::one(), T::zero(), T::zero(), T::zero()], 1),
         TexelFilter::Bilinear => ([T::one() - f, f, T::zero(), T::zero()], 2),
@@ -285,7 +287,7 @@ fn weights<T: Number>(filter: TexelFilter, f: T) -> ([T; 4], usize) {
 
 /// A coordinate in texels, wrapped into the image, or clamped to within two texels of it, the reach of filters.
 fn wrapped<T: Number>(wrap: Wrap, u: T, side: T) -> T {
-    let (one, two) = (T::one(), T::of(2.0));
+    let (one, two) = (T::one(), T::from_f64(2.0));
     match wrap {
         Wrap::Repeat => (u - u.floor()) * side,
         Wrap::Mirror => {

@@ -45,15 +45,15 @@ fn axes_lie_where_the_conventions_have_them() {
         assert_eq!(on_cube(axis), (number, [0.5, 0.5]));
         assert_eq!(from_cube(number, [0.5, 0.5]), axis);
     }
-    // Ahead in the middle, right of it what is right, up at the top.
+    // Ahead is in the middle, right on the right, up at the top.
     assert_eq!(on_equirectangular([0.0, 0.0, -1.0]), [0.5, 0.5]);
     assert_eq!(on_equirectangular([1.0, 0.0, 0.0]), [0.75, 0.5]);
     assert_eq!(on_equirectangular([0.0, 1.0, 0.0_f64])[1], 0.0);
-    // The ball shows what is behind its viewer in its middle.
+    // The middle of the ball shows the direction behind its viewer.
     assert_eq!(on_mirror_ball([0.0, 0.0, 1.0]), [0.5, 0.5]);
     let right = on_mirror_ball([1.0, 0.0, 0.0_f64]);
     assert!((right[0] - (0.5 + 0.5 * 0.5_f64.sqrt())).abs() < 1e-15 && right[1] == 0.5, "{right:?}");
-    // The upper left corner of face +X is seen up and ahead of +Z: (1, 1, 1).
+    // The upper left corner of face +X points to (1, 1, 1).
     assert_eq!(from_cube(0, [0.0, 0.0]), [1.0, 1.0, 1.0]);
     for bad in [[0.0; 3], [f64::NAN; 3], [f64::INFINITY, 0.0, 0.0]] {
         let (face, uv) = on_cube(bad);
@@ -72,7 +72,7 @@ proptest! {
         prop_assert!(uv.iter().all(|x| (0.0..=1.0).contains(x)));
         prop_assert!(apart(from_cube(face, uv), d) < 1e-15);
         prop_assert!(apart(from_equirectangular(on_equirectangular(d)), d) < 1e-14);
-        // Toward −Z a place's last bit is ever more of an angle: √ε.
+        // Toward −Z the last bit of a position is an ever larger angle: √ε.
         prop_assert!(apart(from_mirror_ball(on_mirror_ball(d)), d) < 4e-8);
         prop_assert!(d[2] < -0.99 || apart(from_mirror_ball(on_mirror_ball(d)), d) < 1e-13);
         let single = d.map(|x| x as f32);
@@ -82,7 +82,7 @@ proptest! {
         prop_assert!(d[2] < -0.9 || apart(from_mirror_ball(on_mirror_ball(single)).map(f64::from), d) < 1e-5);
     }
 
-    /// Looked up across every seam, light that changes slowly does.
+    /// Smooth light stays smooth across every seam.
     #[test]
     fn no_seam_is_seen(d in any_direction(), e in any_direction()) {
         let near: [f64; 3] = std::array::from_fn(|k| d[k] + 1e-4 * e[k]);
@@ -152,7 +152,7 @@ fn conversions_come_back() {
     println!("largest error of a conversion or a round trip: {worst:.2e}");
 }
 
-/// How large and how oblong texels are: what the shapes' pages say, by differences.
+/// The size and the aspect of texels match the documentation of the shapes, by differences.
 #[test]
 fn texels_are_distorted_as_the_shapes_say() {
     let cross =
@@ -183,7 +183,7 @@ fn texels_are_distorted_as_the_shapes_say() {
     }
     let (_, sides) = measured(EnvironmentShape::MirrorBall, [0.95, 0.5]);
     assert!((sides - 1.0 / 0.19).abs() < 1e-4, "{sides}");
-    // The cube: corners see 1/(3√3) of what the middle sees.
+    // The cube: a texel in a corner has 1/(3√3) of the solid angle of one in the middle.
     let [(middle, _), (corner, _)] = [[0.5, 0.5], [1.0, 1.0]].map(|place| measured(EnvironmentShape::Cube, place));
     assert!((middle / corner - 3.0 * 3.0_f64.sqrt()).abs() < 1e-4);
 }
@@ -378,7 +378,7 @@ fn bordered_faces_agree_with_cube_maps() {
     }
 }
 
-/// On either side of a seam the same is seen: a step of 10⁻⁹ across changes no more than that many texels do.
+/// Both sides of a seam agree: a step of 10⁻⁹ across it changes no more than that many texels do.
 #[test]
 fn no_seam_of_a_cube_is_seen_on_any_level() {
     let map = EnvironmentMap::new(&waves(8)).unwrap();
@@ -435,7 +435,7 @@ fn other_shapes_become_cubes_of_equal_resolution() {
     assert_eq!(wrong.map(|wrong| wrong.field), Some("rotation"));
 }
 
-/// Turned by a quarter, what lay at +X is seen at −Z.
+/// A quarter turn moves light from +X to −Z.
 #[test]
 fn rotation_is_counter_clockwise_from_above() {
     let light = EnvironmentLight { rotation: std::f32::consts::FRAC_PI_2, ..EnvironmentLight::from(Handle::default()) };

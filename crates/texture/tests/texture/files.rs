@@ -45,7 +45,7 @@ fn invalid_images_are_refused_by_name() {
         let error = decode(bytes, "note.png", TexelMeaning::Color).expect_err("it is none").to_string();
         assert!(error.starts_with(says), "{error}");
     }
-    // A file of a few bytes that says it is 60,000 × 60,000: refused before there is memory for it.
+    // A file of a few bytes with a header of 60,000 × 60,000: refused before memory is allocated.
     let mut bomb = png(RgbImage::from_pixel(1, 1, Rgb([0; 3])));
     bomb[16..20].copy_from_slice(&60_000_u32.to_be_bytes());
     bomb[20..24].copy_from_slice(&60_000_u32.to_be_bytes());
@@ -60,7 +60,7 @@ fn invalid_images_are_refused_by_name() {
     assert!(matches!(nan, Err(TextureError::NotFinite { x: 1, y: 0, .. })));
     let error = halfway_texture::load("no/such/file.png".as_ref(), TexelMeaning::Color).expect_err("it is not there");
     assert!(error.to_string().starts_with("no/such/file.png: cannot be read"), "{error}");
-    // As a pipe is none, whose other end might never come.
+    // A folder is refused, as is a pipe, whose other end might never be opened.
     let error = halfway_texture::load("src".as_ref(), TexelMeaning::Color).expect_err("it is a folder");
     assert_eq!(error, TextureError::NotAFile { image: "src".into() });
 }
@@ -258,7 +258,7 @@ fn impossible_sizes_are_refused_in_every_format() {
             found.map(|image| image.size()).expect_err("no such size")
         };
         let error = refused([60_000, 60_000]);
-        // The parts of an EXR file have to be as many as its size asks for: that is looked at first.
+        // The number of parts of an EXR file has to match its size: that is checked first.
         let is_miscounted = format == ImageFormat::OpenExr && matches!(error, TextureError::Decode { .. });
         let too_large = TextureError::TooLarge { image: name.clone(), width: 60_000, height: 60_000 };
         assert!(is_miscounted || error == too_large, "{error}");
@@ -282,7 +282,7 @@ fn truncated_files_are_refused_in_every_format() {
     }
 }
 
-/// A preview within a segment has an end of its own, and after the end of the picture anything may stand.
+/// A preview within a segment has an end marker of its own, and any bytes may follow the end of the picture.
 #[test]
 fn the_end_of_a_jpeg_is_that_of_its_picture() {
     let file = file_in(ImageFormat::Jpeg);
@@ -298,7 +298,7 @@ fn the_end_of_a_jpeg_is_that_of_its_picture() {
 #[test]
 fn files_have_so_many_bytes_at_most() {
     let path = std::env::temp_dir().join(format!("halfway-long-{}.png", std::process::id()));
-    // All holes: it takes no room on the disk.
+    // A sparse file, which takes no space on the disk.
     File::create(&path).and_then(|file| file.set_len((1 << 28) + 1)).expect("a file");
     let error = load(&path, TexelMeaning::Color);
     std::fs::remove_file(&path).expect("it was there");

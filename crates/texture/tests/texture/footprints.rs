@@ -50,7 +50,7 @@ fn mean_by(pyramid: &Pyramid, wrap: Wrap, range: [[i64; 2]; 2], weight: impl Fn(
     sum.map(|sum| sum / weights)
 }
 
-/// How much of the texel from `x` to `x + 1` lies within half a length of a place.
+/// The part of the texel from `x` to `x + 1` that lies within half of `length` of `middle`.
 fn overlap(x: f64, middle: f64, length: f64) -> f64 {
     ((x + 1.0).min(middle + 0.5 * length) - x.max(middle - 0.5 * length)).max(0.0)
 }

@@ -167,7 +167,7 @@ proptest! {
 
     /// Nothing panics, and all is finite.
     #[test]
-    fn anything_can_be_asked_for(sampling in any_sampling(), uv in any::<[f32; 2]>(), footprint in any::<[[f32; 2]; 2]>()) {
+    fn any_coordinate_gives_a_finite_color(sampling in any_sampling(), uv in any::<[f32; 2]>(), footprint in any::<[[f32; 2]; 2]>()) {
         let found = lookup::filtered(&numbered(5, 8), &sampling, uv, footprint);
         prop_assert!(found.iter().all(|number| number.is_finite()), "{found:?}");
     }

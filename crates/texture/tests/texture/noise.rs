@@ -1,6 +1,6 @@
 //! Noise and solids: determinism, statistics, and fading with distance.
 
-use halfway_texture::noise::{checker, fractal, gradient_noise, hash, left, marble, wood};
+use halfway_texture::noise::{checker, fade, fractal, gradient_noise, hash, marble, wood};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -37,7 +37,7 @@ fn noise_is_zero_at_whole_numbers_and_repeatable() {
     for bad in [f64::NAN, f64::INFINITY, 1e30] {
         assert_eq!(gradient_noise([bad, 0.5, 0.5]), 0.0);
     }
-    // Its own value at a place, worked out from the formula: halfway in a cell all weights are ½.
+    // Its value at a point, worked out from the formula: in the middle of a cell all weights are ½.
     let mean = (0..8).map(|k| {
         let offset = [k & 1, k >> 1 & 1, k >> 2];
         let h = hash(offset)[0] >> 28;
@@ -75,7 +75,7 @@ fn noise_has_the_documented_mean_and_variance() {
 }
 
 /// The power along a line of 256 cells, by the frequency: hardly any above 1 cycle a cell. A line through space also
-/// meets low ones, which no fading has to care for.
+/// has low ones, which need no fading.
 #[test]
 fn noise_lies_in_a_band() {
     const CELLS: usize = 256;
@@ -109,14 +109,15 @@ fn noise_lies_in_a_band() {
 
 #[test]
 fn octaves_fade_as_the_footprint_grows() {
-    assert_eq!((left(0.2), left(0.5), left(0.8)), (1.0, 0.5, 0.0));
+    assert_eq!((fade(0.2), fade(0.5), fade(0.8)), (1.0, 0.5, 0.0));
     let p = [3.7, 1.2, -8.4];
-    // From a width of 3/4 of the first octave's cell on, the mean is left; below 1/4 of the last one's, everything.
+    // From a width of 3/4 of the first octave's cell on, only the mean remains; below 1/4 of the last one's,
+    // everything.
     assert_eq!(fractal(p, 5, 0.75), 0.0);
     assert_eq!(fractal(p, 5, 0.25 / 16.0), fractal(p, 5, 0.0));
     assert_eq!(fractal(p, 5, 0.25 / 4.0), fractal(p, 5, 0.25 / 4.0));
     assert_eq!(fractal(p, 3, 0.25 / 4.0), fractal(p, 3, 0.0));
-    // An octave that is gone is the same as one that is not asked for.
+    // A faded octave equals one that is left out.
     assert_eq!(fractal(p, 9, 0.75 / 8.0), fractal(p, 3, 0.75 / 8.0));
     for width in [f64::NAN, f64::INFINITY, -0.1, 1.5] {
         for value in [fractal(p, 8, width), marble(p, 8, width), wood(p, width), checker(p, [width; 3])] {
@@ -126,7 +127,7 @@ fn octaves_fade_as_the_footprint_grows() {
     assert_eq!([marble(p, 4, 1.0), wood(p, 1.0)], [0.5; 2]);
 }
 
-/// Seen by pixels of a growing width, the fading sum is nearer to the mean over the pixel than the whole sum is.
+/// For pixels of a growing width, the fading sum is nearer to the mean over the pixel than the whole sum is.
 #[test]
 fn fading_is_nearer_to_the_mean_over_the_pixel() {
     for width in [0.1, 0.2, 0.4, 0.8] {
@@ -182,7 +183,7 @@ proptest! {
         }
     }
 
-    /// Steady up to the second derivative: no cell is seen.
+    /// Noise is continuous up to the second derivative: no cell is visible.
     #[test]
     fn cells_meet(x in -20_i32..20, y in -3.0..3.0_f64, z in -3.0..3.0_f64) {
         let at = |offset: f64| gradient_noise([f64::from(x) + offset, y, z]);

@@ -40,7 +40,7 @@ fn normals_of_a_slope_and_of_a_wave() {
     assert!(matches!(from_heights(&wave, [Wrap::Repeat; 2], f32::NAN), Err(TextureError::NotFinite { .. })));
 }
 
-/// Bumps of every direction, about as steep as said.
+/// Bumps in every direction, with slopes of about `steep`.
 fn bumps(steep: f32) -> TexelImage {
     let of = |x: f64, y: f64| {
         let wave = |i: f64, j: f64, phase: f64| (TAU * (i * x + j * y) / 64.0 + phase).sin();
@@ -81,8 +81,8 @@ fn by_moments(spread: &SlopeSpread<f64>, h: [f64; 3], s: f64) -> [f64; 2] {
     by_covariance(spread.mean, spread.covariance(1.0), h, s)
 }
 
-/// A highlight over the whole image and over parts of it: the mean over all texels is the truth, and what one lookup
-/// makes of it is nearer with Toksvig's correction than without, and nearer still by moments.
+/// A highlight over the whole image and over parts of it: the mean over all texels is the truth; one lookup is nearer
+/// to it with Toksvig's correction than without, and nearer still by moments.
 #[test]
 fn corrected_exponents_improve_distant_highlights() {
     for (steep, s) in [(0.2, 30.0), (0.2, 100.0), (0.4, 30.0), (0.4, 100.0)] {
@@ -107,7 +107,7 @@ fn corrected_exponents_improve_distant_highlights() {
                     let length = mean.iter().map(|x| x * x).sum::<f64>().sqrt();
                     let n = unit(mean);
                     let [corrected, factor] = toksvig(length, s);
-                    let spread = SlopeSpread::seen(&pyramid, &sampling, uv, footprint);
+                    let spread = SlopeSpread::filtered(&pyramid, &sampling, uv, footprint);
                     let [by_axes, by_one] = by_moments(&spread, h, s);
                     let found = [power(n, h, s), factor * power(n, h, corrected), by_one, by_axes];
                     (0..4).for_each(|kind| squares[kind] += (found[kind] - truth).powi(2));
@@ -135,7 +135,7 @@ fn a_streak_needs_two_axes() {
     let normals = from_heights(&heights(64, 64, of), [Wrap::Repeat; 2], 0.5).expect("normals");
     let pyramid = Pyramid::new(normals.clone());
     let whole = [[1.0, 0.0], [0.0, 1.0]];
-    let spread = SlopeSpread::seen(&pyramid, &Sampling::default(), [0.3, 0.7], whole);
+    let spread = SlopeSpread::filtered(&pyramid, &Sampling::default(), [0.3, 0.7], whole);
     let [xx, xy, yy] = spread.covariance(1.0);
     let s = 60.0;
     let mut squares = [0.0; 6];
@@ -158,8 +158,8 @@ fn a_streak_needs_two_axes() {
     assert!(faults.iter().all(|fault| *fault > 0.5 * by_length), "{faults:?}, {by_length} Toksvig");
 }
 
-/// The inverse of Σ + I/s, from its definition; energy is kept; what is no covariance, or beyond all numbers, is
-/// finite.
+/// The inverse of Σ + I/s, from its definition; energy is kept; invalid covariances and infinite numbers give finite
+/// results.
 #[test]
 fn a_lobe_is_as_wide_as_its_normals_and_its_own() {
     let cases = [(0.1_f64, 0.05, 0.3, 20.0), (0.0, 0.0, 0.0, 50.0), (2.0, -1.0, 0.5, 3.0), (0.2, 0.0, 0.0, 0.0)];
@@ -209,7 +209,7 @@ fn one_normal_keeps_its_highlight() {
     assert!(toksvig(0.0_f64, 40.0).iter().all(|number| number.is_finite()));
     let even = Pyramid::new(TexelImage::from_fn(4, 4, |_, _| [0.6, 0.5, 0.99, 1.0]).expect("an image"));
     let whole = [[1.0, 0.0], [0.0, 1.0]];
-    let spread = SlopeSpread::seen(&even, &Sampling::default(), [0.3_f64, 0.6], whole);
+    let spread = SlopeSpread::filtered(&even, &Sampling::default(), [0.3_f64, 0.6], whole);
     let covariance = spread.covariance(1.0);
     assert!(covariance.iter().all(|number| number.abs() < 1e-7), "{spread:?}");
     // (x/z, y/z) of the texel, and the texel of it the same direction.
@@ -222,7 +222,8 @@ fn one_normal_keeps_its_highlight() {
         assert!((by_axes - power(n, h, 200.0)).abs() < 1e-4 && (by_one - power(n, h, 200.0)).abs() < 1e-4);
     }
     // f32 is near f64.
-    let single = SlopeSpread::seen(&even, &Sampling::default(), [0.3_f32, 0.6], whole.map(|way| way.map(|x| x as f32)));
+    let single =
+        SlopeSpread::filtered(&even, &Sampling::default(), [0.3_f32, 0.6], whole.map(|way| way.map(|x| x as f32)));
     assert!(single.covariance(1.0).iter().all(|number| number.abs() < 1e-6), "{single:?}");
     // Of normals that lie flat, or point inward, slopes are kept within 16.
     let flat = Pyramid::new(TexelImage::from_fn(2, 1, |x, _| [x as f32, 0.5, 0.3, 1.0]).expect("an image"));

@@ -13,7 +13,7 @@ fn past_failures_and_seeds_do_not_panic() {
     for folder in ["../../fuzz/seeds/image", "tests/past_failures"] {
         for file in fs::read_dir(here.join(folder)).unwrap() {
             let file = file.unwrap().path();
-            // Shown where the test fails.
+            // Printed if the test fails.
             println!("{}", file.display());
             crate::fuzzed::feed(&fs::read(&file).unwrap());
             count += 1;

@@ -16,7 +16,7 @@ fn add<T: Send + Sync + 'static>(app: &mut App, asset: T) -> Handle<T> {
 /// For one kind of asset: assets from before the plugin stay, and those without a handle are removed.
 fn stays<T: Send + Sync + 'static>(make: impl Fn() -> T) {
     let mut app = App::new();
-    // Somebody had some before any plugin.
+    // The app had assets before any plugin.
     app.init_resource::<Assets<T>>();
     let early = add(&mut app, make());
     app.add_plugins(TexturePlugin);

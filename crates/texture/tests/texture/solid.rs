@@ -59,7 +59,7 @@ fn cubes_have_their_middles_at_whole_numbers() {
             assert_eq!(at(x, y, z), expected, "{x} {y} {z}");
         }
     }
-    // Between two cubes the mean, whatever a rounding makes of the place; a least width aside one of them.
+    // Between two cubes the mean, despite rounding of the position; one of them at a least width beside.
     assert_eq!(at(0.5, 0.0, 0.0), 0.5);
     let rounding = 1e-7;
     assert!((at(0.5 + rounding, 0.0, 0.0) - 0.5).abs() < 2e-4);

@@ -59,7 +59,7 @@ fn stripes_to_the_horizon_have_a_closed_form() {
     assert_eq!(truth.mean(REPEAT, &map, [0.5, 0.2], 1e-9), None, "a part lies behind");
 }
 
-/// A convex polygon, cut by a line: what lies where a·x + b·y + c ≥ 0.
+/// The part of a convex polygon where a·x + b·y + c ≥ 0.
 fn cut(polygon: &[[f64; 2]], [a, b, c]: [f64; 3]) -> Vec<[f64; 2]> {
     let side = |[x, y]: [f64; 2]| a * x + b * y + c;
     let mut left = Vec::new();
@@ -122,7 +122,7 @@ proptest! {
 
     /// Any projective map, any way to wrap, against the pixel cut along the texels' edges.
     #[test]
-    fn any_footprint_is_what_cutting_the_pixel_says(
+    fn any_footprint_matches_the_clipped_pixel(
         u in prop::array::uniform3(-0.8..0.8_f64), v in prop::array::uniform3(-0.8..0.8_f64),
         w in prop::array::uniform2(-0.7..0.7_f64),
         wrap in prop::sample::select(vec![Wrap::Repeat, Wrap::Mirror, Wrap::Clamp]),
@@ -141,8 +141,8 @@ proptest! {
     }
 }
 
-/// A map under which the halves of a cell agreed by accident, and what came out was off by 1,300 times the tolerance.
-/// Now by less than 200.
+/// A map under which the halves of a cell agreed by accident, and the result was off by 1,300 times the tolerance. Now
+/// it is off by less than 200.
 #[test]
 fn accidental_agreement_is_halved_again() {
     let u = [-0.107_332_341_040_106_75, -0.138_021_010_495_771_5, -0.453_598_998_553_639_4];

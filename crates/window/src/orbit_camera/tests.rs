@@ -280,7 +280,7 @@ fn a_camera_that_something_else_moves_stays_where_it_is_put() {
     // And a drag goes on from there.
     stage.drag(MouseButton::Left, 36.0, 0.0);
     let expected = {
-        let mut orbit = Orbit::of(&elsewhere, 5.0);
+        let mut orbit = Orbit::from_transform(&elsewhere, 5.0);
         orbit.turn(-PI / 20.0, 0.0);
         orbit.eye()
     };

@@ -3,11 +3,11 @@
 use fastrand::Rng;
 use serde_json::{Value, json};
 
-use super::place::at_distance;
-use super::{Object, looks, short, shorts};
+use super::positions::at_distance;
+use super::{Object, appearance, short, shorts};
 use crate::random::RngExt;
 
-/// The lights of a scene of N objects: from none to 300, or those that the format puts in.
+/// The lights of a scene of N objects: from none to 300, or the format's default.
 pub(super) fn lights(random: &mut Rng, unit: f64, objects: usize) -> Value {
     let count = match random.u64(0..=99) {
         0..2 => return Value::Null,
@@ -28,12 +28,12 @@ fn light(random: &mut Rng, unit: f64, objects: usize, brightness: f64) -> Value 
     light.set("kind", kind.into());
     let bright = if random.percent(4) { random.magnitude(2, 10) } else { 1.0 } * brightness;
     if kind == "hemisphere" {
-        light.perhaps(random, 85, "sky", |random| looks::color(random, 0.8 * bright));
-        light.perhaps(random, 85, "ground", |random| looks::color(random, 0.4 * bright));
+        light.perhaps(random, 85, "sky", |random| appearance::color(random, 0.8 * bright));
+        light.perhaps(random, 85, "ground", |random| appearance::color(random, 0.4 * bright));
     } else {
-        light.set("diffuse", looks::color(random, 1.2 * bright));
-        light.perhaps(random, 85, "specular", |random| looks::color(random, 1.2 * bright));
-        light.perhaps(random, 30, "ambient", |random| looks::color(random, 0.3 * bright));
+        light.set("diffuse", appearance::color(random, 1.2 * bright));
+        light.perhaps(random, 85, "specular", |random| appearance::color(random, 1.2 * bright));
+        light.perhaps(random, 30, "ambient", |random| appearance::color(random, 0.3 * bright));
     }
     light.perhaps(random, 30, "attach", |random| match random.u64(0..=4) {
         0 => json!("world"),
@@ -55,7 +55,7 @@ fn light(random: &mut Rng, unit: f64, objects: usize, brightness: f64) -> Value 
     light.into()
 }
 
-/// Around the objects as a rule, among them, or far away.
+/// Usually around the objects, sometimes among them or far away.
 fn position(random: &mut Rng, unit: f64) -> [f64; 3] {
     let distance = match random.u64(0..=9) {
         0 => random.between(0.0, 1.0),

@@ -19,7 +19,7 @@ pub(super) fn mesh(random: &mut Rng, unit: f64) -> Value {
             let divisions = random.magnitude(0, 4).floor() as u64;
             json!({ "plane": { "size": short(size * random.choose(&[1.0, 2.0, 8.0])), "divisions": divisions } })
         }
-        // Its size is not to be chosen.
+        // Its size is fixed.
         65..75 if (0.25..4.0).contains(&unit) => json!({ "teapot": { "divisions": random.u64(1..=6) } }),
         65..80 => {
             let cells = random.u64(1..=8);
@@ -60,7 +60,7 @@ fn inline(random: &mut Rng, (mut positions, indices): Written) -> Value {
         (0..2 * positions.len()).map(|_| short(random.f64())).collect::<Vec<f64>>().into()
     });
     inline.perhaps(random, 25, "colors", |random| {
-        // Some beyond what is drawn.
+        // Some outside of 0 to 1.
         (0..4 * positions.len()).map(|_| short(random.between(-0.1, 1.1))).collect::<Vec<f64>>().into()
     });
     inline.set("positions", positions.concat().into());

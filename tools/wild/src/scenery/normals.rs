@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 use super::{IMAGES, Object, short, shorts};
 use crate::random::RngExt;
 
-/// `maps` with an image of normals alone, enlarged or reduced, by any filter but the nearest texel: which that is,
-/// rounding says, and of a small part of a highlight the judge cannot tell that from an error.
+/// `maps` with an image of normals alone, enlarged or reduced, by any filter except the nearest texel: rounding decides
+/// which texel is nearest, and in a small highlight the judge cannot tell that from an error.
 pub(super) fn maps(random: &mut Rng) -> Value {
     let mut normal = Object::new();
     normal.set("path", IMAGES[8].0.into());

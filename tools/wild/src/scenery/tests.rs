@@ -53,9 +53,9 @@ fn every_key_and_word_of_the_format_is_drawn() {
     let mut words = Vec::new();
     vocabulary(&serde_json::from_str(&halfway::scene::json_schema()).unwrap(), &mut words);
     assert!(words.len() > 80, "{words:?}");
-    // There is one version, models are files, and the judge says within which tolerance is drawn.
+    // There is one version, models are files, and the judge sets the tolerance.
     let left_out = ["schema_version", "tolerance", "steps", "pixels"];
-    // Of images on objects there are normals, of meshes with one set of coordinates at most, and no file has a second.
+    // Images on objects are normal maps alone, and meshes have at most one set of coordinates.
     let of_maps = ["color", "specular", "emission", "opacity", "shininess", "occlusion", "height", "mask"];
     let of_texels = ["uv_set", "first", "second", "channel", "red", "green", "blue", "alpha"];
     let left_out = [&left_out[..], &of_maps, &of_texels].concat();
@@ -72,7 +72,7 @@ fn the_same_numbers_draw_the_same_scene() {
     assert_ne!(scene(3, 7), scene(4, 7));
 }
 
-/// The sum of all bytes of 100 scenes, which another machine has to find too. A change of what is drawn changes it.
+/// The sum of all bytes of 100 scenes, which has to be the same on every machine. A change of the generator changes it.
 #[test]
 fn scenes_are_the_same_on_every_machine() {
     let bytes: u64 = (0..100).flat_map(|number| scene(1, number).to_string().into_bytes()).map(u64::from).sum();

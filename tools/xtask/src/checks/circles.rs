@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn circles_are_found_and_the_names_that_tie_them() {
+    fn circles_are_found_with_the_names_that_form_them() {
         let files = [
             ("lib.rs", "mod a; mod b; mod c;"),
             ("a.rs", "use crate::b::Beta; pub struct Alpha(Beta);"),

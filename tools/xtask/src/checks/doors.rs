@@ -1,4 +1,4 @@
-//! Doors: which crates may import which.
+//! Doors: the imports between crates that are permitted.
 
 use std::path::Path;
 
@@ -7,44 +7,44 @@ use super::none_of;
 use crate::failure::Result;
 
 /// A crate, the crates of the workspace that it may import, and the crates from outside that it must not use.
-struct Room {
+struct CrateRule {
     name: &'static str,
     imports: &'static [&'static str],
     not: &'static [&'static str],
 }
 
-const fn room(name: &'static str, imports: &'static [&'static str], not: &'static [&'static str]) -> Room {
-    Room { name, imports, not }
+const fn rule(name: &'static str, imports: &'static [&'static str], not: &'static [&'static str]) -> CrateRule {
+    CrateRule { name, imports, not }
 }
 
 const NO_GPU: &[&str] = &["wgpu", "naga", "winit"];
 const NO_WINDOW: &[&str] = &["winit"];
 /// The rules of docs/architecture.md; `*` stands for every crate further up in this table.
-const ROOMS: [Room; 16] = [
-    room("halfway_asset", &[], NO_GPU),
-    room("halfway_mesh", &["halfway_asset"], NO_GPU),
-    room("halfway_texture", &["halfway_asset"], NO_GPU),
-    room("halfway_lighting", &[], NO_GPU),
-    room("halfway_reference", &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting"], NO_GPU),
-    room(
+const RULES: [CrateRule; 16] = [
+    rule("halfway_asset", &[], NO_GPU),
+    rule("halfway_mesh", &["halfway_asset"], NO_GPU),
+    rule("halfway_texture", &["halfway_asset"], NO_GPU),
+    rule("halfway_lighting", &[], NO_GPU),
+    rule("halfway_reference", &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting"], NO_GPU),
+    rule(
         "halfway_raster",
         &["halfway_lighting", "halfway_texture"],
         &["wgpu", "naga", "winit", "bevy_ecs", "bevy_app"],
     ),
-    room("halfway_frame", &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting"], NO_GPU),
-    room(
+    rule("halfway_frame", &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting"], NO_GPU),
+    rule(
         "halfway_render",
         &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting", "halfway_frame", "halfway_raster"],
         NO_WINDOW,
     ),
-    room("halfway_record", &["halfway_render", "halfway_reference", "halfway_lighting"], NO_WINDOW),
-    room("halfway_window", &["halfway_render", "halfway_lighting"], &[]),
-    room("halfway_scene", &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting"], NO_GPU),
-    room("halfway", &["*"], NO_WINDOW),
-    room("halfway_chart", &["*"], NO_WINDOW),
-    room("halfway_wild", &["halfway"], NO_WINDOW),
-    room("halfway_command", &["*"], NO_WINDOW),
-    room("xtask", &[], NO_GPU),
+    rule("halfway_record", &["halfway_render", "halfway_reference", "halfway_lighting"], NO_WINDOW),
+    rule("halfway_window", &["halfway_render", "halfway_lighting"], &[]),
+    rule("halfway_scene", &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting"], NO_GPU),
+    rule("halfway", &["*"], NO_WINDOW),
+    rule("halfway_chart", &["*"], NO_WINDOW),
+    rule("halfway_wild", &["halfway"], NO_WINDOW),
+    rule("halfway_command", &["*"], NO_WINDOW),
+    rule("xtask", &[], NO_GPU),
 ];
 
 /// Checks every manifest of the workspace in `root`.
@@ -58,16 +58,16 @@ fn faults(packages: &[Package]) -> Vec<String> {
 
 fn forbidden(package: &Package) -> Vec<String> {
     let name = &package.name;
-    let Some(place) = ROOMS.iter().position(|room| room.name == name) else {
-        return vec![format!("{name} is no room that the table of doors knows")];
+    let Some(place) = RULES.iter().position(|rule| rule.name == name) else {
+        return vec![format!("{name} is missing from the table of doors")];
     };
-    let room = &ROOMS[place];
-    let below = |other: &str| ROOMS[..place].iter().any(|room| room.name == other);
-    let may = |other: &str| room.imports.contains(&other) || room.imports.contains(&"*") && below(other);
+    let rule = &RULES[place];
+    let below = |other: &str| RULES[..place].iter().any(|rule| rule.name == other);
+    let may = |other: &str| rule.imports.contains(&other) || rule.imports.contains(&"*") && below(other);
     let inside = package.dependencies.iter().filter(|other| other.inside && !may(&other.name));
-    let outside = package.dependencies.iter().filter(|other| !other.inside && room.not.contains(&other.name.as_str()));
+    let outside = package.dependencies.iter().filter(|other| !other.inside && rule.not.contains(&other.name.as_str()));
     let inside = inside.map(|other| format!("{name} must not import {}", other.name));
-    inside.chain(outside.map(|other| format!("{name} must not know {}", other.name))).collect()
+    inside.chain(outside.map(|other| format!("{name} must not depend on {}", other.name))).collect()
 }
 
 #[cfg(test)]
@@ -91,13 +91,18 @@ mod tests {
             ("halfway_render", &["halfway_mesh", "halfway_lighting"], &["wgpu"], None),
             ("halfway_render", &["halfway_reference"], &[], Some("halfway_render must not import halfway_reference")),
             ("halfway_mesh", &["halfway_lighting"], &[], Some("halfway_mesh must not import halfway_lighting")),
-            ("halfway_mesh", &[], &["wgpu"], Some("halfway_mesh must not know wgpu")),
-            ("halfway_raster", &["halfway_lighting"], &["bevy_ecs"], Some("halfway_raster must not know bevy_ecs")),
+            ("halfway_mesh", &[], &["wgpu"], Some("halfway_mesh must not depend on wgpu")),
+            (
+                "halfway_raster",
+                &["halfway_lighting"],
+                &["bevy_ecs"],
+                Some("halfway_raster must not depend on bevy_ecs"),
+            ),
             ("halfway", &["halfway_scene", "halfway_window"], &[], None),
             ("halfway", &["halfway_command"], &[], Some("halfway must not import halfway_command")),
             ("halfway_command", &["halfway", "halfway_chart"], &["clap"], None),
             ("xtask", &["halfway"], &[], Some("xtask must not import halfway")),
-            ("halfway_new", &[], &[], Some("halfway_new is no room")),
+            ("halfway_new", &[], &[], Some("halfway_new is missing from the table")),
         ];
         for (name, inside, outside, expected) in rows {
             let found = faults(&[package(name, inside, outside)]);

@@ -39,7 +39,7 @@ pub(crate) struct Import {
     /// The name that it has here; none for `*`.
     pub(crate) name: Option<String>,
     pub(crate) path: Vec<String>,
-    /// Others can import it from here.
+    /// Whether it is re-exported.
     pub(crate) handed_on: bool,
 }
 
@@ -287,7 +287,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn paths_lead_to_what_defines_a_name() {
+    fn paths_resolve_to_definitions() {
         let (_folder, krate) = planted(&[
             ("lib.rs", "mod a; mod b; pub use a::*; pub use b::inner::Deep as Renamed;"),
             ("a.rs", "pub struct One; #[cfg(test)] pub struct ForTests;"),

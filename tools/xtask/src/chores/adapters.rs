@@ -43,7 +43,7 @@ const ABOUT_DRIVERS: [(&str, &[&str]); 16] = [
     ("crates/render/src/gpu/timer.rs", &["frames_that_are_refused_have_no_time"]),
     ("crates/render/src/gpu/draw/pass.rs", &["nothing_is_left_out_without_an_error"]),
     ("crates/render/src/gpu/pipelines/cache/tests.rs", &[]),
-    ("crates/render/src/gpu/pipelines/compile.rs", &["what_cannot_be_built_comes_back", "the_thread_ends_with"]),
+    ("crates/render/src/gpu/pipelines/compile.rs", &["a_failed_pipeline_returns", "the_thread_ends_with"]),
     (
         "crates/command/tests/command/adapters.rs",
         &[
@@ -65,12 +65,12 @@ const ABOUT_DRIVERS: [(&str, &[&str]); 16] = [
         "tests/render/counters.rs",
         &[
             "pipelines_do_not_grow",
-            "what_a_draw_does_not_use",
+            "shaders_hold_only",
             // The CPU reads in place the data that is uploaded to wgpu.
             "a_change_uploads",
         ],
     ),
-    ("tests/render/cpu.rs", &["what_draws_may_change", "a_device_s_texture"]),
+    ("tests/render/cpu.rs", &["the_adapter_may_change", "a_device_s_texture"]),
     ("tests/render/floats.rs", &["a_device_that_cannot"]),
     ("tests/render/timing.rs", &["the_gpu_is_timed", "frames_that_nobody_waits_for"]),
 ];
@@ -118,7 +118,7 @@ const TESTS: [&str; 7] = [
 const WILD: [&str; 1] = ["scenes_that_failed_once_are_right"];
 const KNOWN_WILD: &str = "known_failures_fail";
 
-/// The tests of the program `render` that the CPU draws, whatever the adapter: in a file of their own.
+/// The tests of the program `render` that the CPU draws under every adapter: in a file of their own.
 pub(crate) const ON_THE_CPU: &str = "render::conformance::on_the_cpu::";
 
 /// The share of the conformance suite's rows with textures to draw: drivers take minutes to compile all of them.
@@ -128,7 +128,7 @@ const TESTED: &str = "HALFWAY_TESTED_ADAPTER";
 /// The variable that chooses the adapter.
 pub(crate) const CHOICE: &str = "HALFWAY_ADAPTER";
 
-/// Every variable that chooses an adapter or its ways.
+/// Every variable that chooses an adapter or changes how it works.
 const CHOICES: [&str; 9] = [
     TESTED,
     SHARE,
@@ -215,9 +215,9 @@ fn all() -> Result<Vec<TriedAdapter>> {
     ])
 }
 
-/// The adapters to try where all tests have run on the CPU and run on the one that `choice` opens, and the share of
-/// rows with textures that these draw. No test runs there again, and the drivers that are left share those rows among
-/// them; with the tests, where these are to draw a share.
+/// The adapters that remain to be tested after all tests have run on the CPU and on the adapter that `choice` opens;
+/// and the share of rows with textures that those tests draw. The remaining drivers share these rows, with the tests
+/// themselves if `with_tests` is set.
 ///
 /// # Errors
 /// An adapter is not there.
@@ -228,8 +228,8 @@ pub(crate) fn others(choice: &str, with_tests: bool) -> Result<(Option<String>, 
     Ok((share, adapters))
 }
 
-/// Leaves out the tests of the CPU and of the adapter that a line of `halfway adapters` is about, shares rows among the
-/// others, and tells the tests' share: all of them together draw each row once.
+/// Leaves out the tests of the CPU and of the adapter in a line of `halfway adapters`, divides the rows among the
+/// others, and returns the tests' share: together they draw each row once.
 fn share(adapters: &mut [TriedAdapter], line: &str, with_tests: bool) -> Option<String> {
     for adapter in adapters.iter_mut() {
         if adapter.tests == Tests::Most || adapter.is_chosen_alone() && adapter.is(line) {

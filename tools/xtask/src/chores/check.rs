@@ -8,7 +8,7 @@ use crate::cargo::{cargo, duration, printed, root, step};
 use crate::checks::{circles, doors};
 use crate::failure::{Failure, Result};
 
-/// Run the checks that must pass before a change goes in; all of them run, whichever fails
+/// Run the checks that must pass before a change is merged; all of them run, even if one fails
 #[derive(Args, Debug)]
 pub(crate) struct Options {
     /// Only these; all where none is named
@@ -33,7 +33,7 @@ enum Check {
     Smallest,
 }
 
-/// Runs the checks, and then says which failed.
+/// Runs the checks, and then lists those that failed.
 pub(crate) fn run(options: &Options) -> Result {
     let all = Check::value_variants();
     let chosen = if options.checks.is_empty() { all } else { &options.checks };

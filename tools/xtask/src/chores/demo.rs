@@ -11,7 +11,7 @@ use crate::failure::{Failure, Result};
 use crate::setup::{Need, Setup, WAYLAND_WINDOWS, X11_WINDOWS};
 
 const EXAMPLE: &str = "moving_lights";
-/// Six seconds, after which the example's lights are back where they began, so that the animation has no jump.
+/// Six seconds, the period of the example's lights, so that the animation loops without a jump.
 const FRAMES: &str = "180";
 const SIZE: &str = "640x360";
 
@@ -60,7 +60,8 @@ fn needs(display: Option<Display>) -> &'static [Need] {
     }
 }
 
-/// Has cargo build or run the example: with wgpu and windows where there is a display, else with the CPU's drawer alone.
+/// The cargo command that builds or runs the example: with wgpu and windows if there is a display, else with the CPU
+/// renderer alone.
 fn example(verb: &str, display: Option<Display>) -> Command {
     let mut command = cargo([verb, "--release", "-p", "halfway", "--example", EXAMPLE]);
     if display.is_none() {
@@ -83,7 +84,7 @@ fn record(mut command: Command) -> Result {
     let sheet = folder.join(format!("{EXAMPLE}_sheet.png"));
     eprintln!("\nNo display answers, or none was asked for: the lights are recorded.");
     command.arg("--headless").arg(&animation).arg("--contact-sheet").arg(&sheet);
-    // It prints its files' names too, but not what they are.
+    // The example prints its files' names too, but without an explanation.
     step("moving lights", command.args(["--frames", FRAMES, "--size", SIZE]).stdout(Stdio::null()))?;
     println!("animation:     {}\ncontact sheet: {}", animation.display(), sheet.display());
     eprintln!("\nWeb browsers play the animation; most picture viewers show its first frame only.");
@@ -95,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn models_are_looked_for_before_anything_is_built() {
+    fn models_are_checked_before_the_build() {
         // Tests run in their package's folder.
         assert_eq!(model(Path::new("Cargo.toml")), Ok(Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml")));
         let problem = model(Path::new("no/such.obj")).unwrap_err();

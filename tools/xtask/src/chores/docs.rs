@@ -10,7 +10,7 @@ const SCHEMA: &str = "docs/scene.schema.json";
 
 /// Makes schema and pictures again.
 pub(crate) fn run() -> Result {
-    // Before anything is built: a page that cannot be read, or shows something else.
+    // Refuses an invalid page before anything is built.
     let commands = drawing(commands::from_page(&root(), PAGE)?)?;
     step("build", &mut cargo(["build", "--release", "--bins", "--examples"]))?;
     schema()?;

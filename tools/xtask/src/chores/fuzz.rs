@@ -84,7 +84,7 @@ fn have_cargo_fuzz(setup: Setup) -> Result {
     if there.is_ok_and(|status| status.success()) {
         return Ok(());
     }
-    // It only starts other programs: optimising it would take longer than it ever runs.
+    // cargo-fuzz only starts other programs: optimising it would take longer than it ever runs.
     let mut install = cargo(["install", "cargo-fuzz", "--version", CARGO_FUZZ, "--locked", "--debug"]);
     if !setup.no_install {
         return step("installing cargo-fuzz", &mut install);
@@ -161,7 +161,7 @@ fn past_failures(target: &str) -> (&'static str, String) {
 struct Counts {
     executions: u64,
     per_second: u64,
-    /// Inputs that reached code which none before them had.
+    /// Inputs that reached new code.
     found: u64,
     /// Mebibytes.
     peak: u64,

@@ -25,9 +25,9 @@ pub(crate) struct Options {
 /// How a command is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Way {
-    /// Not here: it is a step of `.ci/run`.
+    /// Not run here: it is a step of `.ci/run`.
     Elsewhere,
-    /// It has to end, and well.
+    /// It has to end with success.
     Run,
 }
 
@@ -54,10 +54,10 @@ pub(crate) fn run(options: &Options) -> Result {
     Ok(())
 }
 
-/// Each command with its way.
+/// Each command with the way it is tried.
 ///
 /// # Errors
-/// No command is shown, or nobody has said how to try one.
+/// The page shows no command, or one without a known test.
 fn ways(page: &str, commands: Vec<PageCommand>) -> Result<Vec<(PageCommand, Way)>> {
     if commands.is_empty() {
         return Err(Failure::new(format!("{page} shows no command")));

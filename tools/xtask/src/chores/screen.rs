@@ -10,7 +10,7 @@ use crate::failure::Result;
 use crate::screen::VirtualScreen;
 use crate::setup::{Setup, VIRTUAL_SCREEN};
 
-/// Run a command on a virtual screen of its own, as on a desktop that nobody sees
+/// Run a command on a virtual screen of its own
 #[derive(Args, Debug)]
 pub(crate) struct Options {
     #[command(flatten)]

@@ -37,7 +37,7 @@ pub(crate) struct Options {
 /// The requirements of the tests beside drivers: a screen with windows, and a browser.
 const NEEDS: [Need; 6] = [VIRTUAL_SCREEN, WINDOW_MANAGER, X11_WINDOWS, COMPOSITOR, WAYLAND_WINDOWS, BROWSER];
 
-/// Programs of tests that need a driver or a screen, all of them.
+/// Test programs that need a driver or a screen as a whole.
 const ABOUT_MACHINES: [&str; 2] = ["twins", "window"];
 /// The module of tests that need a browser.
 const IN_A_BROWSER: &str = "browser::";
@@ -68,7 +68,7 @@ pub(crate) fn run(options: &Options) -> Result {
 fn by_the_cpu() -> Result {
     let programs = test_programs(&root())?;
     let programs = programs.iter().filter(|name| !ABOUT_MACHINES.contains(&name.as_str()));
-    // The tests of the examples run them as they are built for people.
+    // The tests of the examples run the binaries that users build.
     step("examples", &mut cargo(["build", "--release", "--workspace", "--examples"]))?;
     let mut tests = tests_of(["--lib", "--bins"].into_iter().chain(programs.flat_map(|name| ["--test", name])));
     tests.arg("--").args(["--skip", IN_A_BROWSER]).args(without_drivers());
@@ -88,16 +88,16 @@ fn on_drivers(options: &Options) -> Result {
     let mut others = tests_of(["--lib", "--tests"]);
     others.args(["--", IN_A_BROWSER]).args(units_about_drivers());
     step("build", &mut cargo(["test", "--release", "--workspace", "--no-run"]))?;
-    // Without hardware the CPU would draw, which has had its turn.
+    // Without hardware the CPU would draw, whose tests have run already.
     let choice = std::env::var(CHOICE).unwrap_or_else(|_| "gpu".to_owned());
-    // Elsewhere than on Linux there is the system's own.
+    // Other systems have a display of their own.
     let (share, adapters) =
         if cfg!(target_os = "linux") { adapters::others(&choice, options.shared)? } else { (None, Vec::new()) };
     for command in [&mut programs, &mut others] {
         command.env(CHOICE, &choice).envs(share.iter().map(|share| (SHARE, share)));
         if cfg!(target_os = "linux") {
-            // Windows open on a virtual screen, whatever display is at hand: none flashes up in front of somebody who
-            // works, and no key that they press goes astray.
+            // Windows open on a virtual screen even if there is a display, so that none disturbs the user and no key
+            // press of the user reaches them.
             command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
         }
     }
@@ -105,7 +105,7 @@ fn on_drivers(options: &Options) -> Result {
     adapters::try_each(adapters)
 }
 
-/// Has cargo run tests of the whole workspace, also those after one that fails.
+/// The cargo command for tests of the whole workspace, which continues after failures.
 fn tests_of<'a>(targets: impl IntoIterator<Item = &'a str>) -> Command {
     cargo(["test", "--release", "--workspace", "--no-fail-fast"].into_iter().chain(targets))
 }

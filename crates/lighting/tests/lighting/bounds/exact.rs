@@ -1,4 +1,4 @@
-//! Where a patch is one point with one normal there is nothing to bound: the bounds are the terms.
+//! The bounds of a patch that is one point with one normal are the terms themselves.
 
 use halfway_lighting::Faces;
 use halfway_lighting::bounds::MARGIN;

@@ -1,4 +1,4 @@
-//! What is left out stays within the tolerance, is the weakest, and cannot be more.
+//! The sum of the omitted terms stays within the tolerance; they are the weakest, and no more could be omitted.
 
 use halfway_lighting::bounds::Selected;
 use halfway_lighting::equations::Light;
@@ -107,7 +107,7 @@ proptest! {
 
     /// The promise itself: at no point do the terms left out add more than the figure says.
     #[test]
-    fn what_is_left_out_is_at_most_the_figure(
+    fn omitted_light_is_at_most_left_out(
         scene in scene(),
         sources in prop::collection::vec(source(), 0..40),
         tolerance in some_tolerance(),

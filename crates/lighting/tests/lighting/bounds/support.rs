@@ -33,7 +33,7 @@ pub(crate) enum Kind {
 
 impl Source {
     pub(crate) fn light<T: Real>(&self) -> Light<T> {
-        let [position, direction] = [self.position, self.direction].map(|a| a.map(|x| T::of(f64::from(x))));
+        let [position, direction] = [self.position, self.direction].map(|a| a.map(|x| T::from_f64(f64::from(x))));
         let PointLight { ambient, diffuse, specular, .. } = self.light;
         match self.kind {
             Kind::Point => self.light.at(position),
@@ -60,19 +60,21 @@ pub(crate) struct Scene {
 
 impl Scene {
     pub(crate) fn receiver<T: Real>(&self) -> Receiver<T> {
-        let of = |a: [f32; 3]| a.map(|x| T::of(f64::from(x)));
+        let of = |a: [f32; 3]| a.map(|x| T::from_f64(f64::from(x)));
         let patch = Patch {
             center: of(self.center),
-            radius: T::of(f64::from(self.radius)),
-            normals: self.cone.map(|(axis, angle)| NormalCone { axis: of(axis), half_angle: T::of(f64::from(angle)) }),
-            half_thickness: T::of(f64::from(self.radius * self.thickness)),
+            radius: T::from_f64(f64::from(self.radius)),
+            normals: self
+                .cone
+                .map(|(axis, angle)| NormalCone { axis: of(axis), half_angle: T::from_f64(f64::from(angle)) }),
+            half_thickness: T::from_f64(f64::from(self.radius * self.thickness)),
             faces: self.faces,
         };
         Receiver::new(&patch, &Coefficients::from(&self.material), &self.view(), self.reflectance)
     }
 
     fn view<T: Real>(&self) -> Eye<T> {
-        let of = |a: [f32; 3]| a.map(|x| T::of(f64::from(x)));
+        let of = |a: [f32; 3]| a.map(|x| T::from_f64(f64::from(x)));
         match self.view {
             Eye::Local(eye) => Eye::Local(of(eye)),
             Eye::Infinite(v) => Eye::Infinite(normalize(of(v)).expect("not 0")),
@@ -163,7 +165,8 @@ pub(crate) fn direction(a: f64, b: f64) -> [f64; 3] {
     [r * (TAU * b).cos(), r * (TAU * b).sin(), z]
 }
 
-/// What exceeds its bound, in words, or `None`. `f32` counts numbers below its smallest normal one as 0.
+/// A description of the first term that exceeds its bound, or `None`. `f32` counts numbers below its smallest normal
+/// one as 0.
 pub(crate) fn exceeds<T: Real>(terms: &LightTerms<f64>, bounds: &TermBounds<T>, light: &Light<f64>) -> Option<String> {
     // An ambient that is not attenuated is no part of the bounds.
     let ambient = if light.steady_ambient() == [0.0; 3] { terms.ambient } else { [0.0; 3] };

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::support::cases;
 
-/// What an 8-bit picture holds before it is rounded.
+/// The value of a channel of an 8-bit picture before rounding.
 fn written(encoding: Encoding, linear: f64) -> f64 {
     encoding.encode(linear.min(1.0))
 }
@@ -15,7 +15,7 @@ proptest! {
     #![proptest_config(cases(1000))]
 
     #[test]
-    fn no_change_within_it_is_seen(
+    fn no_change_within_the_tolerance_is_visible(
         known in 0f64..1.2,
         more in 0f64..1.0,
         share in 0f64..=1.0,

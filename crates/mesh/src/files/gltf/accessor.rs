@@ -77,7 +77,7 @@ impl AccessorBytes<'_> {
     }
 }
 
-/// Which items are read, in order.
+/// The items that are read, in order.
 pub(super) enum Which {
     All,
     These(Vec<u32>),

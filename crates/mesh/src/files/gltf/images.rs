@@ -17,7 +17,7 @@ use crate::{SourceLevels, SourceMap, SourceWrap};
 /// The extension that says where texture coordinates lie on an image.
 pub(super) const TRANSFORM: &str = "KHR_texture_transform";
 
-/// How a material looks an image up.
+/// The lookup of an image by a material.
 pub(super) struct Lookup {
     pub(super) set: u32,
     pub(super) transform: Option<TexturePlace>,

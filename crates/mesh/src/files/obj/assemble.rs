@@ -113,7 +113,7 @@ struct Unsmoothed {
     sources: Vec<u32>,
 }
 
-/// The parts of all drafts. Those without normals are smoothed together, by smoothing groups if the file has any: a
+/// The parts of all drafts. Parts without normals are smoothed together, by smoothing groups if the file has any: a
 /// border between materials or names is not a crease.
 pub(super) fn parts(
     drafts: Vec<Draft>,

@@ -81,7 +81,7 @@ fn divided_like(
 
 /// The fraction of bright channels that an error of the bars explains.
 const MOST_EXPLAINED: f64 = 0.98;
-/// Darker channels, relative to the expected picture's brightness, tell little by their quotient.
+/// Darker channels, relative to the expected picture's brightness, have quotients too inexact to use.
 const DARKEST: f64 = 0.25;
 /// Quotients that are farther from the median, relatively, belong to other surfaces.
 const STRAY: f64 = 0.02;

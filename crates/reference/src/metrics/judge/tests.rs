@@ -32,14 +32,14 @@ fn float(surroundings: impl Fn(u32, u32) -> Possible + Sync, actual: &Image) -> 
     judge_with(surroundings, Samples::One, &ramp(), actual, Bars::FLOAT).expect("one size")
 }
 
-fn nothing_is_asked(x: u32, y: u32) -> Possible {
+fn no_possible_colors(x: u32, y: u32) -> Possible {
     panic!("({x}, {y}) is within the bar")
 }
 
 #[test]
 fn pixels_within_the_bar_are_not_asked_about() {
     let slightly_off = Image::new(SIZE, SIZE, ramp().pixels().iter().map(|p| p.map(|i| i + 1.5e-4)).collect());
-    let verdict = float(nothing_is_asked, &slightly_off);
+    let verdict = float(no_possible_colors, &slightly_off);
     assert!(verdict.is_within(), "{verdict}");
     assert!((verdict.most - 1.5e-4).abs() < 1e-9 && (verdict.worst - 1.5e-4).abs() < 1e-9, "{verdict}");
     assert_eq!((verdict.edges, verdict.counted, verdict.equal), (0.0, 1.0, 0.0));

@@ -1,33 +1,33 @@
-//! Which surfaces cover a point wherever a renderer rounds their vertices to.
+//! The surfaces that cover a point however a renderer rounds their vertices.
 
 use std::collections::HashMap;
 
 use halfway_lighting::Faces;
 
 use super::footprint::Footprint;
-use crate::oracle::gather::OracleScene;
+use crate::oracle::scene::OracleScene;
 
-/// Triangles that hang together within a disc: neighbours share an edge that comes into it.
+/// Triangles that are connected within a disc: neighbours share an edge that crosses it.
 ///
-/// A renderer moves vertices by less than the disc's radius, those at one place together. An edge outside the disc then
-/// does not pass its centre. So where all edges inside are shared by two triangles, what covers the centre cannot
-/// uncover it: how many triangles wind one way around the centre, less those that wind the other way, does not change.
+/// A renderer moves vertices by less than the disc's radius, coincident ones together. An edge outside the disc then
+/// does not pass its centre. So where two triangles share each edge inside, a surface that covers the centre still does
+/// after rounding: the winding number around the centre does not change.
 #[derive(Debug)]
 pub(super) struct CoveringGroup {
-    /// Numbers of footprints.
+    /// Indices of footprints.
     pub(super) members: Vec<usize>,
-    /// Whether one of the members that are shown covers the centre, whatever the rounding.
+    /// Whether a visible member covers the centre under any rounding.
     pub(super) is_certain: bool,
-    /// Whether exactly one does, and all are seen from the same side.
+    /// Whether exactly one does, and all face the same way.
     pub(super) is_single: bool,
-    /// Whether rounding may turn some over, so that the surface is folded and lies over itself.
+    /// Whether rounding may flip some members, so that the surface folds over itself.
     pub(super) may_fold: bool,
 }
 
 /// A shared edge: the [`group`] of its triangles, and its ends, the smaller one first.
 type SharedEdge = (usize, [u64; 3], [u64; 3]);
 
-/// How many triangles an edge leads along, there and back.
+/// The number of triangles that use an edge in either direction.
 #[derive(Default)]
 struct Uses {
     forward: Vec<usize>,
@@ -69,12 +69,12 @@ pub(super) fn coverings(scene: &OracleScene, footprints: &[Footprint]) -> Vec<Co
     members.into_iter().map(|members| covering(scene, footprints, &rims, members)).collect()
 }
 
-/// What the edges that come into the disc say of the triangles on them.
+/// The state of the edges of a group that cross the disc.
 #[derive(Clone, Copy, Default)]
 struct Rim {
-    /// An edge ends the surface.
+    /// An edge is a border of the surface.
     is_open: bool,
-    /// An edge does not lead one way as often as the other.
+    /// An edge is used in one direction more often than in the other.
     is_unbalanced: bool,
 }
 
@@ -95,8 +95,8 @@ fn covering(scene: &OracleScene, footprints: &[Footprint], rims: &[Rim], members
     CoveringGroup { members, is_certain, is_single, may_fold }
 }
 
-/// Triangles of one number hang together as those of one mesh: those of opaque objects that show the same sides and
-/// have equal transforms, so that a renderer takes equal corners to equal places; or those of one blended object.
+/// Triangles of one group number can be connected: those of opaque objects that show the same sides and have equal
+/// transforms, so that a renderer rounds equal corners alike; or those of one blended object.
 fn group(scene: &OracleScene, footprints: &[Footprint], solid: usize) -> usize {
     let own = &scene.solids[solid];
     let is_like = |number: usize| {

@@ -3,8 +3,8 @@
 use bevy_math::{DVec2, DVec3};
 use halfway_lighting::Frequency;
 
-use crate::oracle::gather::OracleScene;
 use crate::oracle::raster::{Primitive, RayTriangle};
+use crate::oracle::scene::OracleScene;
 use crate::oracle::solid::Solid;
 use crate::oracle::view::PictureView;
 
@@ -20,7 +20,7 @@ pub(super) struct Zone {
 }
 
 /// The sides of the polygon around a disc. Each of its corners lies 2 % of the radius outside, so that the corners are
-/// on both sides of whatever straight line cuts the disc.
+/// on both sides of any straight line that cuts the disc.
 const SIDES: u32 = 16;
 
 /// 0, 22.5, 45 and 67.5 degrees as cosine and sine, to the nearest f64.
@@ -58,7 +58,7 @@ impl Zone {
         view.pixel_by_w(p, self.centre).dot(side) - self.reach * view.w(p)
     }
 
-    /// Whether what is left of a shape inside the sides reaches the area.
+    /// Whether an outline that is clipped to the sides reaches the area.
     fn meets(&self, view: &PictureView, outline: &[FootprintCorner]) -> bool {
         !outline.is_empty() && (!self.round || distance(view, outline, self.centre) <= self.reach)
     }
@@ -83,8 +83,8 @@ impl FootprintCorner {
     }
 }
 
-/// From the disc's centre to where coverage is looked up, in pixels: right and then down, as the top-left rule has it.
-/// Vertices on a grid may lie at the centre exactly, where rounding would decide for each edge by itself.
+/// The offset from the disc's centre to the point where coverage is tested, in pixels: right and then down, by the
+/// top-left rule. Snapped vertices may lie exactly at the centre, where rounding would decide each edge on its own.
 const AT_CENTRE: DVec2 = DVec2::new(1e-9, 1e-10);
 
 /// A triangle within a disc around a point of the picture.
@@ -93,7 +93,7 @@ const AT_CENTRE: DVec2 = DVec2::new(1e-9, 1e-10);
 pub(super) struct Footprint {
     pub(super) solid: usize,
     pub(super) triangle: u32,
-    /// Whether the front is seen.
+    /// Whether the front is visible.
     pub(super) front: bool,
     /// Whether it winds counter-clockwise as seen.
     pub(super) counter_clockwise: bool,
@@ -101,24 +101,24 @@ pub(super) struct Footprint {
     pub(super) at_centre: bool,
     /// So thin that vertices moved by the disc's radius may turn it over.
     pub(super) thin: bool,
-    /// What lies within the polygon around the disc.
+    /// The part within the polygon around the disc.
     pub(super) outline: Vec<FootprintCorner>,
-    /// The least and the greatest nearness within the disc, widened by what rounding may do to them: 1/depth in a
-    /// perspective, else −depth.
+    /// The least and the greatest nearness within the disc, widened by rounding errors: 1/depth in a perspective, else
+    /// −depth.
     pub(super) nearness: [f64; 2],
     /// The triangle's corners, for comparison: of equal ones the bits are equal.
     pub(super) corners: [[u64; 3]; 3],
-    /// Which edges come into the disc; edge i leads from corner i to the next.
+    /// Which edges cross the disc; edge i leads from corner i to the next.
     pub(super) edges: [bool; 3],
     /// Whether the near plane or the far one cuts it within the disc.
     pub(super) cut: bool,
-    /// How far beside it a renderer may draw it, in pixels.
+    /// The distance outside its outline up to which a renderer may draw it, in pixels.
     pub(super) beside: f64,
 }
 
 impl Footprint {
-    /// What is seen of a triangle within the disc `zone`, of either side, shown or not; `None` where there is nothing.
-    /// It may be drawn `beside` itself by a number of pixels.
+    /// The part of a triangle within the disc `zone`, whichever side faces the eye and whether or not that side is
+    /// drawn; `None` if it is empty. A renderer may extend it by `beside` pixels.
     pub(super) fn new(scene: &OracleScene, primitive: &Primitive, zone: &Zone, beside: f64) -> Option<Self> {
         let (view, solid) = (&scene.view, &scene.solids[primitive.solid]);
         let corners = solid.triangle(primitive.index);
@@ -129,7 +129,7 @@ impl Footprint {
         let [a, b, c] = corners;
         let counter_clockwise = (b - a).cross(c - a).dot(view.sight(a)) < 0.0;
         let DVec2 { x, y } = zone.centre + AT_CENTRE;
-        let met = RayTriangle::new(view, corners).meet(view.at(x, y)).filter(|met| view.shows(met.depth));
+        let met = RayTriangle::new(view, corners).intersect(view.at(x, y)).filter(|met| view.shows(met.depth));
         let edge = |i: usize| {
             let ends = [whole(corners)[i], whole(corners)[(i + 1) % 3]];
             zone.meets(view, &clipped(view, &ends, zone))
@@ -151,18 +151,18 @@ impl Footprint {
         })
     }
 
-    /// What lies within another area around the same point, to be shaded there.
+    /// The part within another area around the same point, to be shaded there.
     pub(super) fn within(&self, scene: &OracleScene, zone: &Zone) -> Vec<FootprintCorner> {
         clipped(&scene.view, &self.whole(scene), zone)
     }
 
-    /// The same of the triangle with what lies beside it by less than `reach` pixels, in its plane.
+    /// The same for the triangle extended in its plane by `reach` pixels.
     pub(super) fn reaching(&self, scene: &OracleScene, zone: &Zone, reach: f64) -> Vec<FootprintCorner> {
         let whole = whole(scene.solids[self.solid].triangle(self.triangle));
         clipped(&scene.view, &grown(&scene.view, &whole, reach).unwrap_or(whole), zone)
     }
 
-    /// All of the triangle.
+    /// The whole triangle.
     pub(super) fn whole(&self, scene: &OracleScene) -> Vec<FootprintCorner> {
         whole(scene.solids[self.solid].triangle(self.triangle)).to_vec()
     }
@@ -200,7 +200,7 @@ fn grown(view: &PictureView, corners: &[FootprintCorner; 3], by: f64) -> Option<
     let shares = [0, 1, 2].map(|i| by * pixels[(i + 1) % 3].distance(pixels[(i + 2) % 3]) / twice_area);
     let moved = [0, 1, 2].map(|i| {
         let on_picture = |k: usize| if k == i { 1.0 + shares[(i + 1) % 3] + shares[(i + 2) % 3] } else { -shares[k] };
-        // What is linear on the picture is so in space over w.
+        // A function linear on the picture is linear in space after division by w.
         let by_w = [0, 1, 2].map(|k| on_picture(k) / view.w(corners[k].p));
         let sum: f64 = by_w.iter().sum();
         let weights = by_w.map(|weight| weight / sum);
@@ -226,7 +226,7 @@ fn clipped(view: &PictureView, outline: &[FootprintCorner], zone: &Zone) -> Vec<
     rest
 }
 
-/// What is left of a convex outline where `beyond`, linear in space, is not above 0.
+/// The part of a convex outline where `beyond`, linear in space, is at most 0.
 fn cut(outline: &[FootprintCorner], beyond: impl Fn(&FootprintCorner) -> f64) -> Vec<FootprintCorner> {
     let mut rest = Vec::with_capacity(outline.len() + 1);
     for (i, from) in outline.iter().enumerate() {

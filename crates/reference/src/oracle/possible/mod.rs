@@ -1,7 +1,7 @@
-//! Which colours a pixel may show, drawn by a renderer that rounds where vertices are.
+//! The colours that a pixel may show in a renderer that rounds vertex positions.
 //!
-//! `footprint` finds the triangles that come close to a sampling point, `covering` which of them cannot be missed,
-//! `values` what each gives back there, and `stack` puts them one over the other.
+//! `footprint` finds the triangles near a sampling point, `covering` those that certainly cover it, `values` the
+//! colours of each, and `stack` blends them.
 
 mod covering;
 mod footprint;
@@ -23,33 +23,33 @@ pub use range::{ColorRange, Possible};
 /// sample locations").
 const FOUR: [[f64; 2]; 4] = [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
 
-/// More combinations of the samples' colours become one range.
+/// The most combinations of the samples' colours; more are merged into one range.
 const MOST_RANGES: usize = 4096;
 
 impl Oracle {
     /// The colours that the pixel in column `x` of row `y` may show, drawn by a renderer that moves each vertex by at
-    /// most `radius` pixels, vertices at one place together: what any sampling point so far beside the true one could
-    /// have met. The radius is below 1/8. Near triangles of which a corner may be at either of two places of the
-    /// [grid](Self::on_grid) it is the step of the grid, if that is more; of those that reach beyond the picture it is so
-    /// for what they cover, and not for their colours: a renderer may cut them at its sides, and put the corners that
-    /// this makes on the grid.
+    /// most `radius` pixels, coincident vertices together: all that a sampling point displaced by that much could hit.
+    /// The radius is below 1/8. Near triangles with a corner that may snap to either of two points of the
+    /// [grid](Self::on_grid) it is the step of the grid, if that is more. For triangles that reach beyond the picture
+    /// this holds for their coverage and not for their colours: a renderer may clip them at the sides of the picture,
+    /// and snap the new corners to the grid.
     ///
-    /// - A triangle may be seen if it comes into the disc of that radius, unless something before it cannot be missed:
-    ///   a surface that covers the disc's centre and has neither an end nor a silhouette within the disc, and of which
-    ///   the farthest point in the disc is nearer than the triangle's nearest one.
+    /// - A triangle may be visible if it reaches the disc of that radius, unless a surface certainly hides it: one that
+    ///   covers the disc's centre, has neither a border nor a silhouette within the disc, and whose farthest point in
+    ///   the disc is nearer than the triangle's nearest one.
     /// - Depths are equal if they differ by no more than four roundings of f32 of the nearest depth on the triangle,
     ///   from which a renderer interpolates, and of the terms of its vertices' depths. Of two opaque objects with
     ///   equal meshes and the same transform, both flat or neither, the one that was spawned first is seen.
-    /// - Blended surfaces are put over each other in every combination, in the order of drawing.
+    /// - Blended surfaces are composed in every combination, in drawing order.
     /// - Where the camera takes four samples a pixel, each of them has a disc of its own. A triangle is shaded once,
     ///   anywhere in the part of the pixel that it covers, or at the centre if it covers the pixel.
     ///
-    /// The camera's [`Intensity`](halfway_lighting::Intensity) has acted on them, but for a divisor.
+    /// The camera's [`Intensity`](halfway_lighting::Intensity) has been applied, except for a divisor.
     ///
-    /// For [`Mode::Mesh`](super::Mode::Mesh). Surfaces that are drawn by their formula are not known here.
+    /// For [`Mode::Mesh`](super::Mode::Mesh). Surfaces that are drawn by their formula are not supported here.
     pub fn possible(&self, x: u32, y: u32, radius: f64) -> Possible {
         let policy = self.scene.intensity;
-        // Curves grow with every channel, so that ends stay ends.
+        // The curves are monotonic, so that they map the ends of a range to its ends.
         self.drawn_there(x, y, radius).mapped(|channel| policy.toned(channel))
     }
 
@@ -58,7 +58,7 @@ impl Oracle {
         let centre = corner + 0.5;
         let radius =
             if self.is_uncertain(corner) { self.grid.map_or(radius, |grid| radius.max(grid.step())) } else { radius };
-        // Shaded once a pixel, as everything is.
+        // The background, too, is shaded once a pixel.
         let behind = self.scene.behind(self.scene.view.direction(centre.x, centre.y));
         match self.samples() {
             Samples::One => {
@@ -69,7 +69,7 @@ impl Oracle {
                 let shading = [&Zone::disc(centre, radius), &Zone::square(centre, 0.5 + radius)];
                 let at = |at: DVec2| self.stack(at, radius, &shading).possible(&self.scene, behind, self.clamp);
                 let samples = FOUR.map(|sample| at(corner + DVec2::from_array(sample)));
-                // The oracle's own picture shows the centre, where something may lie that no sample meets.
+                // The oracle's own picture shows the centre, where something may lie that no sample hits.
                 let centre = at(centre);
                 let is_edge = centre.is_edge || centre.ranges != samples[0].ranges;
                 let possible = mean(&samples);
@@ -78,7 +78,7 @@ impl Oracle {
         }
     }
 
-    /// Whether a triangle that may be drawn elsewhere comes near a pixel.
+    /// Whether a triangle with an uncertain corner lies near a pixel.
     fn is_uncertain(&self, corner: DVec2) -> bool {
         let Some(grid) = self.grid else { return false };
         let near = self.tiles().within(corner - grid.step(), corner + 1.0 + grid.step());

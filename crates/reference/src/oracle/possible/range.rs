@@ -12,18 +12,18 @@ pub struct ColorRange {
 /// The colours that one pixel may show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Possible {
-    /// One for each combination of triangles that may be seen.
+    /// One for each combination of triangles that may be visible.
     pub ranges: Vec<ColorRange>,
-    /// Whether more than one combination of triangles may be seen, or another by each sample, or a triangle's own
-    /// colour jumps, as it does at the edge of a spot's cone, or a corner of it may be drawn at either of two places.
-    /// Where none is so the pixel has one right colour: that at its centre.
+    /// Whether the pixel has more than one right colour: more than one combination of triangles may be visible, or a
+    /// different one at each sample, or a triangle's own colour jumps, as at the edge of a spot's cone, or one of its
+    /// corners may snap to either of two grid points. Otherwise only the colour at its centre is right.
     pub is_edge: bool,
     /// The most blended layers that may lie over one another at one sampling point.
     pub layers: usize,
 }
 
 impl ColorRange {
-    pub(super) fn of(colors: impl IntoIterator<Item = [f64; 3]>) -> Self {
+    pub(super) fn from_colors(colors: impl IntoIterator<Item = [f64; 3]>) -> Self {
         let none = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
         colors.into_iter().fold(none, |range, color| range.with(&Self { low: color, high: color }))
     }
@@ -44,7 +44,7 @@ impl ColorRange {
         Self { low: self.low.map(&grows), high: self.high.map(&grows) }
     }
 
-    /// Each end put through a function that grows with every channel of what goes in.
+    /// Combines the ends of two ranges by a function that is monotonic in both.
     pub(super) fn through(&self, other: &Self, grows: impl Fn(f64, f64) -> f64) -> Self {
         let ends = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| grows(a[k], b[k]));
         Self { low: ends(self.low, other.low), high: ends(self.high, other.high) }

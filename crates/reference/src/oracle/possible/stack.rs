@@ -1,4 +1,4 @@
-//! What may lie over what near a sampling point, and the colours that this makes.
+//! The possible orders of surfaces near a sampling point, and the blended colours of each.
 
 use halfway_lighting::Faces;
 
@@ -6,35 +6,35 @@ use super::covering::{CoveringGroup, coverings};
 use super::footprint::{Footprint, Zone};
 use super::range::{ColorRange, Possible};
 use super::values::{SideColors, cuts};
-use crate::oracle::gather::OracleScene;
+use crate::oracle::scene::OracleScene;
 use crate::oracle::solid::Color;
 
-/// A side of a triangle that may be seen.
+/// A side of a triangle that may be visible.
 #[derive(Clone)]
 struct Layer {
-    /// The footprint's number, which is its place in the order of drawing among those of its object.
+    /// The footprint's index, in drawing order among those of its object.
     footprint: usize,
     front: bool,
     values: SideColors,
 }
 
-/// Blended layers of which at most one lies over the sampling point.
+/// Alternative blended layers: at most one covers the sampling point.
 struct Choice {
     layers: Vec<Layer>,
     /// Exactly one does.
     is_certain: bool,
 }
 
-/// Everything that may be seen near a sampling point.
+/// Everything that may be visible near a sampling point.
 pub(super) struct Stack {
     footprints: Vec<Footprint>,
     opaque: Vec<Layer>,
-    /// Whether no opaque surface may be met.
+    /// Whether the ray may miss every opaque surface.
     is_bare: bool,
     blended: Vec<Choice>,
 }
 
-/// More combinations of blended layers become one range.
+/// The most combinations of blended layers; more are merged into one range.
 const MOST_COMBINATIONS: usize = 256;
 
 impl Stack {
@@ -46,7 +46,7 @@ impl Stack {
         coverings.retain(|covering| !covering.members.is_empty());
         let is_blended = |covering: &&CoveringGroup| scene.solids[footprints[covering.members[0]].solid].blend;
         let (blended, opaque): (Vec<&CoveringGroup>, Vec<&CoveringGroup>) = coverings.iter().partition(is_blended);
-        // The farthest point of each surface that cannot be missed.
+        // The farthest point of each surface that certainly covers the point.
         let farthest = |covering: &&CoveringGroup| {
             let shown = covering.members.iter().map(|member| &footprints[*member]).filter(|it| is_shown(scene, it));
             shown.map(|footprint| footprint.nearness[0]).fold(f64::INFINITY, f64::min)
@@ -72,7 +72,7 @@ impl Stack {
         Self { opaque: opaque_layers, is_bare: certain.is_empty(), blended: choices.collect(), footprints }
     }
 
-    /// The colours of all combinations, before what is `behind` everything.
+    /// The colours of all combinations, over the background `behind_all`.
     pub(super) fn possible(&self, scene: &OracleScene, behind_all: Color, clamp: bool) -> Possible {
         let written =
             |range: &ColorRange| range.through(range, |channel, _| if clamp { channel.min(1.0) } else { channel });
@@ -80,10 +80,10 @@ impl Stack {
         let mut layers = 0;
         let behind = self.opaque.iter().map(Some).chain(self.is_bare.then_some(None));
         for opaque in behind {
-            let range = opaque.map_or_else(|| ColorRange::of([behind_all]), |layer| layer.values.range);
-            let seen = self.seen_over(scene, opaque);
-            layers = layers.max(most_layers(&seen));
-            for range in self.over(scene, &seen, written(&range), &written) {
+            let range = opaque.map_or_else(|| ColorRange::from_colors([behind_all]), |layer| layer.values.range);
+            let visible = self.visible_over(scene, opaque);
+            layers = layers.max(most_layers(&visible));
+            for range in self.over(scene, &visible, written(&range), &written) {
                 if !ranges.contains(&range) {
                     ranges.push(range);
                 }
@@ -94,17 +94,17 @@ impl Stack {
         Possible { is_edge: ranges.len() > 1 || jumps, ranges, layers }
     }
 
-    /// Of each choice the blended layers that may lie over an opaque one, or over the background, and whether perhaps
-    /// none does.
-    fn seen_over(&self, scene: &OracleScene, opaque: Option<&Layer>) -> Vec<(Vec<&Layer>, bool)> {
+    /// For each choice, the blended layers that may lie over an opaque one, or over the background, and whether none
+    /// may.
+    fn visible_over(&self, scene: &OracleScene, opaque: Option<&Layer>) -> Vec<(Vec<&Layer>, bool)> {
         self.blended.iter().map(|choice| self.before(scene, choice, opaque)).collect()
     }
 
-    /// The colours of all combinations of blended layers over what is behind them.
+    /// The colours of all combinations of blended layers over the colours behind them.
     fn over(
         &self,
         scene: &OracleScene,
-        seen: &[(Vec<&Layer>, bool)],
+        visible: &[(Vec<&Layer>, bool)],
         behind: ColorRange,
         written: &impl Fn(&ColorRange) -> ColorRange,
     ) -> Vec<ColorRange> {
@@ -118,15 +118,15 @@ impl Stack {
             });
             least.with(&greatest)
         };
-        let combinations = seen.iter().try_fold(1_usize, |product, (layers, may_be_missed)| {
+        let combinations = visible.iter().try_fold(1_usize, |product, (layers, may_be_missed)| {
             let ways = layers.len() + usize::from(*may_be_missed);
             product.checked_mul(ways.max(1)).filter(|product| *product <= MOST_COMBINATIONS)
         });
         if combinations.is_none() {
-            return vec![self.over_at_once(scene, behind, seen, blend)];
+            return vec![self.over_at_once(scene, behind, visible, blend)];
         }
         let mut ways: Vec<Vec<&Layer>> = vec![Vec::new()];
-        for (layers, may_be_missed) in seen {
+        for (layers, may_be_missed) in visible {
             let missed = (*may_be_missed || layers.is_empty()).then_some(None);
             let choices: Vec<Option<&Layer>> = layers.iter().map(|layer| Some(*layer)).chain(missed).collect();
             ways = ways
@@ -147,16 +147,16 @@ impl Stack {
         &self,
         scene: &OracleScene,
         behind: ColorRange,
-        seen: &[(Vec<&Layer>, bool)],
+        visible: &[(Vec<&Layer>, bool)],
         blend: impl Fn(&ColorRange, &Layer) -> ColorRange,
     ) -> ColorRange {
-        let mut layers: Vec<&Layer> = seen.iter().flat_map(|(layers, _)| layers).copied().collect();
+        let mut layers: Vec<&Layer> = visible.iter().flat_map(|(layers, _)| layers).copied().collect();
         layers.sort_by_key(|layer| self.order(scene, layer));
         layers.dedup_by_key(|layer| (layer.footprint, layer.front));
         layers.into_iter().fold(behind, |behind, layer| behind.with(&blend(&behind, layer)))
     }
 
-    /// Which layers of a choice may lie before an opaque one, and whether perhaps none does.
+    /// The layers of a choice that may lie before an opaque one, and whether none may.
     fn before<'a>(&self, scene: &OracleScene, choice: &'a Choice, opaque: Option<&Layer>) -> (Vec<&'a Layer>, bool) {
         let Some(opaque) = opaque.map(|layer| &self.footprints[layer.footprint]) else {
             return (choice.layers.iter().collect(), !choice.is_certain);
@@ -170,7 +170,7 @@ impl Stack {
         (layers, !(choice.is_certain && all_are))
     }
 
-    /// The order of drawing: by object; of a two-sided one the back first; then by triangle.
+    /// The drawing order: by object; the back first if it is two-sided; then by triangle.
     fn order(&self, scene: &OracleScene, layer: &Layer) -> (usize, bool, u32) {
         let footprint = &self.footprints[layer.footprint];
         let in_two_passes = scene.solids[footprint.solid].faces == Faces::Both;
@@ -178,17 +178,18 @@ impl Stack {
     }
 }
 
-/// How many blended layers may lie over one another: one of each choice, and each layer once.
-fn most_layers(seen: &[(Vec<&Layer>, bool)]) -> usize {
-    let choices = seen.iter().filter(|(layers, _)| !layers.is_empty()).count();
+/// The most blended layers over one another: one of each choice, and each layer once.
+fn most_layers(visible: &[(Vec<&Layer>, bool)]) -> usize {
+    let choices = visible.iter().filter(|(layers, _)| !layers.is_empty()).count();
     let mut layers: Vec<_> =
-        seen.iter().flat_map(|(layers, _)| layers).map(|layer| (layer.footprint, layer.front)).collect();
+        visible.iter().flat_map(|(layers, _)| layers).map(|layer| (layer.footprint, layer.front)).collect();
     layers.sort_unstable();
     layers.dedup();
     choices.min(layers.len())
 }
 
-/// Leaves out what a mask has certainly cut out of a covering; what it may have cut out covers nothing for certain.
+/// Removes the members of a covering that a mask certainly cuts away; members that it may cut away no longer cover
+/// anything for certain.
 fn cut(scene: &OracleScene, footprints: &[Footprint], covering: &mut CoveringGroup, shading: &[&Zone]) {
     let ways: Vec<[bool; 2]> =
         covering.members.iter().map(|member| cuts(scene, &footprints[*member], shading)).collect();
@@ -203,8 +204,8 @@ fn is_shown(scene: &OracleScene, footprint: &Footprint) -> bool {
     scene.solids[footprint.solid].side(footprint.front).shown
 }
 
-/// Whether an opaque triangle takes the place of another one: the same of an object with an equal mesh and the same
-/// transform that was spawned before. Of others that coincide either may be drawn first.
+/// Whether an earlier opaque triangle hides this one: the same triangle of an object with an equal mesh and transform
+/// that was spawned before. Other coincident triangles may be drawn in either order.
 fn is_hidden_by(scene: &OracleScene, footprint: &Footprint, earlier: &Footprint) -> bool {
     let [solid, first] = [footprint, earlier].map(|it| &scene.solids[it.solid]);
     let are_twins = || solid.mesh.positions() == first.mesh.positions() && solid.mesh.indices() == first.mesh.indices();
@@ -212,8 +213,8 @@ fn is_hidden_by(scene: &OracleScene, footprint: &Footprint, earlier: &Footprint)
     !solid.blend && !first.blend && is_shown(scene, earlier) && are_the_same && are_twins()
 }
 
-/// The sides that may be seen: the one that is turned to the eye, and of a thin triangle at a silhouette or of a
-/// blended object, which rounding may turn over, both; if they are shown.
+/// The drawn sides that may be visible: the one that faces the eye, or both for a thin triangle at a silhouette or of a
+/// blended object, which rounding may flip.
 fn sides(scene: &OracleScene, footprint: &Footprint, is_certain: bool) -> impl Iterator<Item = bool> {
     let solid = &scene.solids[footprint.solid];
     let may_turn = footprint.thin && (!is_certain || solid.blend);
@@ -221,15 +222,15 @@ fn sides(scene: &OracleScene, footprint: &Footprint, is_certain: bool) -> impl I
     [true, false].into_iter().filter(move |side| (may_turn || *side == front) && solid.side(*side).shown)
 }
 
-/// The layers of one covering, of which each side is met once at most; or each by itself, where they overlap or the
-/// surface may be folded.
+/// The layers of one covering as one choice, since a ray hits each side at most once; or a choice for each layer, if
+/// they overlap or the surface may fold.
 fn choices(covering: &CoveringGroup, layers: Vec<Layer>, footprints: &[Footprint]) -> Vec<Choice> {
     let all_are_there = covering.members.iter().all(|m| layers.iter().any(|layer| layer.footprint == *m));
     if covering.is_single && all_are_there {
         return vec![Choice { layers, is_certain: true }];
     }
     if covering.may_fold && covering.is_certain && all_are_there {
-        // A fold lies over one layer, once more.
+        // A fold adds one more layer.
         return [true, false].map(|is_certain| Choice { layers: layers.clone(), is_certain }).into();
     }
     let (front, back): (Vec<Layer>, Vec<Layer>) = layers.into_iter().partition(|layer| layer.front);

@@ -1,9 +1,9 @@
-//! What a triangle gives back within a small area of the picture.
+//! The colours of a triangle within a small area of the picture.
 
 use super::footprint::{Footprint, FootprintCorner, Zone};
 use super::range::ColorRange;
-use crate::oracle::gather::OracleScene;
 use crate::oracle::raster::{Hit, HitPoint};
+use crate::oracle::scene::OracleScene;
 use crate::oracle::solid::Color;
 use halfway_lighting::Frequency;
 
@@ -13,34 +13,33 @@ pub(super) struct SideColors {
     pub(super) range: ColorRange,
     /// The least and the greatest opacity.
     pub(super) opacity: [f64; 2],
-    /// Whether any of them is right: they change by much from one place to the next, or it is not known where the
-    /// triangle is drawn.
+    /// Whether any colour of the range is right: they jump within the area, or the triangle's position is uncertain.
     pub(super) jumps: bool,
 }
 
-/// How often the way between two places is halved to tell a jump from a slope: the ends are then 2⁻¹² as far apart.
+/// How often the segment between two points is halved to tell a jump from a slope: its ends are then 2⁻¹² as far apart.
 const HALVINGS: u32 = 12;
-/// A difference of which this share is left between them is a jump; of a slope a few thousandths are left.
+/// If this share of the colour difference remains between the ends, it is a jump; of a slope a few thousandths remain.
 const JUMP: f64 = 0.125;
-/// What is left out by a triangle that counts as covering a square, as a share.
+/// The share of a square that a triangle may leave open and still counts as covering it.
 const ROUNDING: f64 = 1e-9;
 
 impl SideColors {
     /// The colours of a side within the last of some areas, or within the first of them if the triangle covers the
     /// last.
     ///
-    /// They are found at the corners of the part of the triangle that lies within, and in its middle. What is
-    /// interpolated between vertices is extreme at corners, and a jump along a straight line has corners on both sides.
-    /// What curves in between does so by less than the bars of a judge where the area is a small part of a pixel. Where
-    /// it is larger (a pixel of four samples, or a triangle that is seen edge-on), more points between are taken, and
-    /// from the extreme ones the extremes are sought, as under images and solids everywhere: those may go up and down
-    /// within any area.
+    /// They are sampled at the corners of the part of the triangle that lies within, and in its middle. Interpolated
+    /// values are extreme at corners, and a jump along a straight line has corners on both sides. Colours curve in
+    /// between by less than the judge's bars if the area is a small part of a pixel. If it is larger (a pixel of four
+    /// samples, or a triangle seen edge-on), more points between are sampled, and a search starts from the extreme
+    /// ones. The same search is used everywhere under images and solids, whose colours may rise and fall within any
+    /// area.
     pub(super) fn new(scene: &OracleScene, footprint: &Footprint, front: bool, shading: &[&Zone]) -> Self {
         let (outline, cuts) = part(scene, footprint, shading);
         let points = points(&outline, cuts);
         let color = |corner: &FootprintCorner| color(scene, footprint, front, corner);
         let colors: Vec<Color> = points.iter().map(color).collect();
-        let mut range = ColorRange::of(colors.iter().copied());
+        let mut range = ColorRange::from_colors(colors.iter().copied());
         let solid = &scene.solids[footprint.solid];
         let is_textured = solid.maps.is_some() || solid.cut_from.is_some();
         let jumps = (solid.terms.has(Frequency::Fragment) || is_textured) && jumps(&points, &colors, &range, color)
@@ -54,8 +53,8 @@ impl SideColors {
     }
 }
 
-/// The part of a triangle in which it is shaded, and into how many parts the way from its middle to a corner is cut. A
-/// fine grid may have it cover a point [`BESIDE`] it, where slopes that are not rounded go on.
+/// The part of a triangle in which it is shaded, and the number of parts that each segment from its middle to a corner
+/// is cut into. On a fine grid it may cover a point [`BESIDE`] it, where unrounded slopes extrapolate.
 fn part(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> (Vec<FootprintCorner>, usize) {
     let beside = footprint.beside.max(BESIDE);
     let (mut outline, mut cuts) = match shading {
@@ -72,7 +71,7 @@ fn part(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> (Vec<F
         [] => (Vec::new(), 1),
     };
     if footprint.thin {
-        // Across it a renderer's slopes come from rounded corners alone: none of its colours is wrong.
+        // A renderer's slopes across it come from rounded corners alone, so all of its colours are right.
         (outline, cuts) = (widened(scene, &footprint.whole(scene)), CUTS_OF_A_TRIANGLE);
     } else if outline.is_empty() {
         (outline, cuts) = (footprint.outline.clone(), 1);
@@ -80,15 +79,15 @@ fn part(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> (Vec<F
     (outline, if curves(scene, footprint) { cuts } else { 1 })
 }
 
-/// The colours on the ways from the points with the least and the greatest of each channel to where it is least and
-/// greatest near by: toward whichever corner changes it most, at first by a part `step` of the way there.
+/// Searches the least and the greatest value of each channel from the extreme points: toward whichever corner changes
+/// it most, at first by a part `step` of the distance.
 fn sought(
     corners: &[FootprintCorner],
     (points, colors): (&[FootprintCorner], &[Color]),
     step: f64,
     color: impl Fn(&FootprintCorner) -> Color,
 ) -> ColorRange {
-    let mut range = ColorRange::of([]);
+    let mut range = ColorRange::from_colors([]);
     // Channels often have their extremes at one point.
     let mut begun: Vec<(usize, bool)> = Vec::new();
     for (channel, greatest) in (0..3).flat_map(|channel| [(channel, false), (channel, true)]) {
@@ -104,7 +103,7 @@ fn sought(
         for _ in 0..TRIALS {
             let beside = corners.iter().map(|corner| place.between(corner, step)).map(|there| (there, color(&there)));
             let beside: Vec<_> = beside.collect();
-            range = range.with(&ColorRange::of(beside.iter().map(|(_, color)| *color)));
+            range = range.with(&ColorRange::from_colors(beside.iter().map(|(_, color)| *color)));
             match beside.into_iter().max_by(|a, b| value(&a.1).total_cmp(&value(&b.1))) {
                 Some((there, color)) if value(&color) > most => (place, most) = (there, value(&color)),
                 _ => step *= 0.5,
@@ -114,12 +113,12 @@ fn sought(
     range
 }
 
-/// How often an extreme is looked for farther on. Where every second time leads on, it is then known to a sixteenth of
-/// what is between the points.
+/// The number of steps of a search. If every second one succeeds, the extreme is then known to a sixteenth of the
+/// difference between the points.
 const TRIALS: u32 = 8;
 
-/// A thin triangle with what lies so close beside it that a fine grid may have it cover a pixel there. A renderer that
-/// takes its slopes from vertices that are not rounded continues its colours as far as that.
+/// A thin triangle, extended as far as a fine grid may move it. A renderer that takes its slopes from unrounded
+/// vertices extrapolates its colours that far.
 fn widened(scene: &OracleScene, corners: &[FootprintCorner]) -> Vec<FootprintCorner> {
     let pixels: Vec<_> = corners.iter().map(|corner| scene.view.pixel(corner.p)).collect();
     let ends = || (0..pixels.len()).map(|i| (pixels[i], pixels[(i + 1) % pixels.len()]));
@@ -132,11 +131,11 @@ fn widened(scene: &OracleScene, corners: &[FootprintCorner]) -> Vec<FootprintCor
     corners.iter().map(|corner| middle.between(corner, factor)).collect()
 }
 
-/// How far vertices are moved, in pixels, that a grid of 1/256 pixel rounds: by half of a step along each axis. So far
-/// beside a triangle its colours may go on.
+/// How far a grid of 1/256 pixel moves vertices, in pixels: half of a step along each axis. The colours of a triangle
+/// may extend that far beside it.
 const BESIDE: f64 = std::f64::consts::SQRT_2 / 512.0;
-/// No farther beside it than this, as a share of the way from its middle: where that would take it farther, slopes are
-/// taken from rounded vertices.
+/// The most that a triangle is extended, as a share of the distance from its middle: beyond that, slopes are taken from
+/// rounded vertices.
 const MOST_BESIDE: f64 = 0.5;
 
 /// Whether a renderer draws a triangle in parts, since the near plane or the far one leaves a quadrangle of it. With four samples a
@@ -149,12 +148,12 @@ fn is_in_parts(scene: &OracleScene, footprint: &Footprint) -> bool {
 fn curves(scene: &OracleScene, footprint: &Footprint) -> bool {
     let solid = &scene.solids[footprint.solid];
     let is_textured = solid.maps.is_some() || solid.cut_from.is_some();
-    solid.terms.has(Frequency::Fragment) || is_textured || scene.surroundings.is_some()
+    solid.terms.has(Frequency::Fragment) || is_textured || scene.environment.is_some()
 }
 
-/// Into this number of parts the way from the middle to each corner is cut where the area is about a pixel, and where
-/// it is a whole triangle. What mirrors an environment curves by up to 2 % of a picture's range within a pixel: cut in
-/// half, by a quarter of that.
+/// The number of parts that each segment from the middle to a corner is cut into, for an area of about a pixel and for
+/// a whole triangle. A mirrored environment curves by up to 2 % of a picture's range within a pixel: cut in half, by a
+/// quarter of that.
 const CUTS_OF_A_PIXEL: usize = 4;
 const CUTS_OF_A_TRIANGLE: usize = 8;
 
@@ -176,17 +175,17 @@ fn points(outline: &[FootprintCorner], cuts: usize) -> Vec<FootprintCorner> {
     points
 }
 
-/// Whether a mask may have cut a triangle out at a point near by, and whether it may not.
+/// Whether a mask may cut the triangle away at a nearby point, and whether it may keep it.
 pub(super) fn cuts(scene: &OracleScene, footprint: &Footprint, shading: &[&Zone]) -> [bool; 2] {
     let Some(cutoff) = scene.solids[footprint.solid].mask else { return [false, true] };
     let (outline, cuts) = part(scene, footprint, shading);
     let outline = points(&outline, cuts);
-    let there = |corner: &FootprintCorner| scene.opacity_there(&hit(footprint, footprint.front, corner));
+    let there = |corner: &FootprintCorner| scene.surface_opacity(&hit(footprint, footprint.front, corner));
     let [least, greatest] = extremes(&outline, there);
     [least < cutoff + CUT, greatest >= cutoff - CUT]
 }
 
-/// Opacities this near to a cutoff may be on either side of it: above what filters in f32 are off by, some 10⁻⁵.
+/// Opacities this near to a cutoff may be on either side of it: more than the error of filters in f32, some 10⁻⁵.
 const CUT: f64 = 5e-5;
 
 fn extremes(outline: &[FootprintCorner], number: impl Fn(&FootprintCorner) -> f64) -> [f64; 2] {
@@ -218,7 +217,7 @@ fn covers(scene: &OracleScene, outline: &[FootprintCorner], zone: &Zone) -> bool
     0.5 * twice_area.abs() >= (1.0 - ROUNDING) * square
 }
 
-/// Whether the way between the two places that differ most holds a jump.
+/// Whether the colour jumps between the two points that differ most.
 fn jumps(
     outline: &[FootprintCorner],
     colors: &[Color],

@@ -1,26 +1,26 @@
-//! Meshes for flat shading: one vertex a triangle carries its shade.
+//! Meshes for flat shading: one vertex of each triangle carries its colour.
 
 use bevy_math::{Vec3, Vec4};
 use halfway_mesh::face_normal;
 
-/// A mesh whose every triangle has a vertex of its own in first place: that provoking vertex carries
-/// the triangle's face normal and centroid, and so its one shade. Triangles keep their order and
-/// winding; they are rotated, and vertices repeated, so that each has one.
+/// A mesh in which each triangle starts with a vertex of its own: that provoking vertex carries the triangle's face
+/// normal and centroid. Triangles keep their order and winding; they are rotated, and vertices duplicated, so that each
+/// has one.
 pub(crate) struct FlatMesh {
     pub(crate) positions: Vec<Vec3>,
     /// Face normal, centroid.
     pub(crate) attributes: Vec<[Vec3; 2]>,
-    /// Of each provoking vertex the mean color of its triangle's corners, where they have any.
+    /// The mean color of its triangle's corners for each provoking vertex, if they have colors.
     pub(crate) colors: Option<Vec<Vec4>>,
-    /// Of each vertex its own texture coordinates, where they have any.
+    /// The texture coordinates of each vertex, if they have any.
     pub(crate) uvs: Option<Vec<Vec4>>,
     pub(crate) indices: Vec<u32>,
-    /// Whether a vertex provokes a triangle already.
+    /// Whether a vertex is already the provoking one of a triangle.
     taken: Vec<bool>,
 }
 
-/// After N triangles an adapter has forgotten a shaded vertex, and shades it again. A vertex that provokes a triangle
-/// already is then better repeated: the copy can provoke another triangle, and costs no more than the old one.
+/// After N triangles a vertex has left an adapter's vertex cache, and is shaded again. A vertex that is already a
+/// provoking one is then better duplicated: the copy can provoke another triangle, and costs no more.
 const VERTEX_MEMORY: usize = 256;
 
 impl FlatMesh {
@@ -36,7 +36,7 @@ impl FlatMesh {
             indices: Vec::with_capacity(3 * triangles.len()),
             taken: vec![false; corners.len()],
         };
-        // Of each vertex of the mesh: the copy in use, and the triangle that used it last.
+        // For each vertex of the mesh: the current copy, and the triangle that used it last.
         let mut copies: Vec<(u32, usize)> = (0..corners.len() as u32).map(|vertex| (vertex, 0)).collect();
         for (triangle, &vertices) in triangles.iter().enumerate() {
             let mut used = vertices.map(|vertex| {
@@ -94,7 +94,7 @@ mod tests {
     use std::collections::HashSet;
 
     #[test]
-    fn every_flat_triangle_has_its_own_provoking_vertex_and_keeps_its_corners() {
+    fn every_flat_triangle_has_its_own_provoking_vertex() {
         let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 16, rings: 8 });
         let flat = FlatMesh::new((mesh.positions(), None, None), mesh.indices().as_chunks().0);
         let mut provoking = HashSet::new();
@@ -111,12 +111,12 @@ mod tests {
             let [normal, _] = flat.attributes[corners[0] as usize];
             assert!((p1 - p0).cross(p2 - p0).dot(normal) > 0.0, "the winding turned over");
         }
-        // Each repeated vertex stands for a taken one, and each triangle takes one.
+        // Each duplicate replaces a taken vertex, and each triangle takes one.
         assert!(flat.positions.len() <= mesh.triangle_count() + mesh.positions().len());
     }
 
     #[test]
-    fn a_grid_larger_than_the_vertex_memory_needs_one_vertex_a_triangle() {
+    fn a_large_grid_needs_one_vertex_a_triangle() {
         // 512 quads a row: the upper row of vertices of each row of quads has been forgotten by then.
         let mesh = Mesh::from(UvSphere { radius: 1.0, segments: 512, rings: 16 });
         let flat = FlatMesh::new((mesh.positions(), None, None), mesh.indices().as_chunks().0);

@@ -1,4 +1,4 @@
-//! Upload: the images that draws read, on the GPU.
+//! The set Upload: uploads the images that draws read.
 
 use crate::gpu::device::Gpu;
 use crate::gpu::draw::placings::{PlacingRecord, PlacingsRecord, packed, packed_size, stored};
@@ -12,28 +12,28 @@ use halfway_frame::error::RenderError;
 use halfway_frame::report::FrameReport;
 use halfway_texture::{ImageForm, MapKind, Pyramid, Texture};
 
-/// The images that have been drawn, until they change or go, and the bindings of the frame's uses of them.
+/// The drawn images, until they change or are removed, and the bindings of the frame's uses of them.
 #[derive(Default)]
 pub(crate) struct MapTextures {
     textures: HashMap<(AssetId<Texture>, ImageForm, Part), MapTexture>,
     /// By their numbers.
     groups: Vec<BoundMaps>,
-    /// The texture that is bound where there is no image.
+    /// The texture that is bound in place of a missing image.
     none: Option<wgpu::TextureView>,
 }
 
-/// The part of an image that is sent.
+/// The part of an image that is uploaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Part {
     Texels,
-    /// Of normals.
+    /// The slopes of normals.
     Slopes,
-    /// Of slopes with each other.
+    /// The products of slopes.
     Products,
 }
 
 impl Part {
-    fn of(self, pyramid: &Pyramid) -> &Pyramid {
+    fn select(self, pyramid: &Pyramid) -> &Pyramid {
         match self {
             Self::Texels => pyramid,
             Self::Slopes => &pyramid.moments()[0],
@@ -42,8 +42,8 @@ impl Part {
     }
 }
 
-/// The images that a set binds, each with its use: of normals of which the moments are read the slopes in their own
-/// slot, and their products in that of heights, of which there are none beside normals.
+/// The images that a set binds, each with its use. A normal map with moments binds its slopes in its own slot, and
+/// their products in the slot of heights, which is free beside normals.
 fn bound<'a>(of: &'a MapsUse, pyramids: &'a Pyramids) -> impl Iterator<Item = Option<(&'a MapUse, &'a Pyramid, Part)>> {
     let [normal, height] = [MapKind::Normal as usize, MapKind::Height as usize];
     let moments = of.slots[normal].is_some_and(|of| of.moments);
@@ -65,7 +65,7 @@ type Pyramids = [Option<Pyramid>; MapKind::COUNT];
 struct BoundMaps {
     of: MapsUse,
     pyramids: Pyramids,
-    /// `None` where it could not be, and where no pipeline reads such a set yet; others are bound all the same.
+    /// `None` if binding failed, or if no pipeline reads such a set yet; others are bound all the same.
     group: Option<wgpu::BindGroup>,
 }
 
@@ -82,8 +82,8 @@ struct MapTexture {
 }
 
 impl MapTextures {
-    /// Sends the images that the frame shows and that are not there. What is too large is not drawn, and its error is
-    /// in the report, every frame anew.
+    /// Uploads the visible images that are missing on the GPU. An image that is too large is not drawn, and its error
+    /// is in the report of every frame.
     pub(crate) fn send(
         &mut self,
         gpu: &Gpu,
@@ -142,7 +142,7 @@ impl MapTextures {
             };
             let (view, sent) = self.view(gpu, of, pyramid, part)?;
             let width = view.texture().width();
-            record.each[slot] = PlacingRecord::new(of.rows(), of.amount, (part.of(pyramid), of.form), width);
+            record.each[slot] = PlacingRecord::new(of.rows(), of.amount, (part.select(pyramid), of.form), width);
             bytes += sent;
             views.push(view);
         }
@@ -175,7 +175,7 @@ impl MapTextures {
         if let Some(there) = self.textures.get(&key).filter(|there| there.pyramid.is_same(pyramid)) {
             return Ok((there.view.clone(), 0));
         }
-        let texels = stored(part.of(pyramid), of.form);
+        let texels = stored(part.select(pyramid), of.form);
         let what = match of.form {
             ImageForm::Pyramid => "an image with its pyramid",
             ImageForm::Ripmap => "an image with its ripmap",
@@ -195,10 +195,10 @@ impl MapTextures {
     }
 }
 
-/// How many bytes the record of where maps lie has.
+/// The bytes of the record of placements.
 const PLACINGS_BYTES: u64 = size_of::<PlacingsRecord>() as u64;
 
-/// A buffer with these bytes, which do not change.
+/// A constant buffer with these bytes.
 fn uniform(gpu: &Gpu, label: &str, bytes: &[u8]) -> wgpu::Buffer {
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),

@@ -1,4 +1,4 @@
-//! Upload: meshes on the GPU.
+//! The set Upload: uploads meshes.
 
 use crate::gpu::device::Gpu;
 use crate::gpu::draw::flat::FlatMesh;
@@ -12,7 +12,7 @@ use halfway_frame::geometry::meshes::{Form, Geometries, both_uvs};
 use halfway_frame::report::FrameReport;
 use halfway_mesh::Mesh;
 
-/// The buffers of the meshes that have been drawn, until they change or go.
+/// The buffers of the drawn meshes, until they change or are removed.
 #[derive(Resource, Default)]
 pub(crate) struct MeshBuffers(DrawnMeshes<MeshBuffer>);
 
@@ -21,18 +21,18 @@ pub(crate) struct MeshBuffer {
     pub(crate) positions: wgpu::Buffer,
     /// Smooth: normals. Flat: face normal and centroid of the triangle whose provoking vertex this is.
     pub(crate) attributes: wgpu::Buffer,
-    /// Where they are drawn; flat: that of the centroid, as above.
+    /// The colors, if they are drawn; flat: that of the centroid, as above.
     pub(crate) colors: Option<wgpu::Buffer>,
-    /// Texture coordinates of both sets, where images are drawn.
+    /// Texture coordinates of both sets, if images are drawn.
     pub(crate) uvs: Option<wgpu::Buffer>,
-    /// Where there is a normal map.
+    /// The tangents, if there is a normal map.
     pub(crate) tangents: Option<wgpu::Buffer>,
     pub(crate) indices: wgpu::Buffer,
     pub(crate) index_format: wgpu::IndexFormat,
 }
 
-/// Uploads the meshes that are drawn and not there yet, as far as they are not. What is too large is not drawn, and its
-/// error is in the report, every frame anew.
+/// Uploads the parts of drawn meshes that are missing on the GPU. A mesh that is too large is not drawn, and its error
+/// is in the report of every frame.
 pub(crate) fn upload(
     gpu: Res<Gpu>,
     batches: Res<Batches>,
@@ -42,7 +42,7 @@ pub(crate) fn upload(
 ) {
     buffers.0.make_ready(&batches, &mut geometries, &mut report, |geometry, indices, form, before| {
         let source = &geometry.drawn;
-        // With images go colors, white where there are none.
+        // Draws with images have colors, white if the mesh has none.
         let white = || vec![Vec4::ONE; source.positions().len()];
         let colors = source.drawn_colors().filter(|_| form.colored).or_else(|| form.mapped.then(white));
         let uvs = form.mapped.then(|| both_uvs(source));
@@ -162,7 +162,7 @@ fn buffer(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) ->
     let size = needed.max(1).next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT);
     let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: true };
     let buffer = gpu.device.create_buffer(&descriptor);
-    // A lost device maps nothing.
+    // A lost device maps no memory.
     let mut mapped = buffer
         .get_mapped_range_mut(..)
         .map_err(|error| RenderError::Device(format!("the mesh's {label} could not be sent ({error})")))?;
@@ -190,7 +190,7 @@ mod tests {
     #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
     struct Seldom;
 
-    /// How many meshes the renderer keeps laid out, in buffers, and with levels of detail.
+    /// The numbers of meshes that the renderer keeps laid out, in buffers, and with levels of detail.
     fn kept(app: &App) -> [usize; 3] {
         let world = app.world();
         let levels = world.resource::<Workshop>().len();
@@ -235,7 +235,7 @@ mod tests {
     #[test]
     fn meshes_that_are_gone_are_forgotten_however_seldom_frames_are() {
         for updates in [1, 2, 3, 10] {
-            // Those of the frame in two ways of shading, and those of the frame before, which is looked for first.
+            // Those of the frame in two shadings, and those of the previous frame, which are dropped later.
             let most = most_kept(updates, 2);
             assert!(most[0] <= 4 && most[1] <= 4 && (1..=2).contains(&most[2]), "{updates} updates: {most:?}");
         }

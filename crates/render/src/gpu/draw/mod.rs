@@ -1,4 +1,4 @@
-//! What draws read on the GPU, uploaded: buffers, images and the environment.
+//! The data of draws, uploaded to the GPU: buffers, images and the environment.
 
 pub(crate) mod flat;
 pub(crate) mod maps;

@@ -1,11 +1,12 @@
-//! Placings: where images lie in the textures that hold them, and where a mesh's coordinates lie on images, as
-//! maps.wgsl reads it. The test of the twins of maps.wgsl is a user of this file too, so it needs no other.
+//! Placements: the positions of images in the textures that hold them, and the transforms from a mesh's coordinates to
+//! images, in the layout of maps.wgsl. The test of the twins of maps.wgsl is a user of this file too, so it needs no
+//! other.
 
 use bytemuck::{Pod, Zeroable};
 use halfway_texture::{ImageForm, Level, MapKind, Pyramid, Ripmap, SummedAreas};
 use std::borrow::Cow;
 
-/// Where a mesh's coordinates lie on images; `Placings` in maps.wgsl.
+/// The placements of all images of a draw; `Placings` in maps.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct PlacingsRecord {
@@ -13,7 +14,7 @@ pub(crate) struct PlacingsRecord {
     pub(crate) each: [PlacingRecord; MapKind::COUNT],
 }
 
-/// Where they lie on one, how much it counts, and where its levels are; `Placing` in maps.wgsl.
+/// The transform of coordinates to an image, its amount, and the positions of its levels; `Placing` in maps.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct PlacingRecord {
@@ -24,7 +25,7 @@ pub(crate) struct PlacingRecord {
 }
 
 impl PlacingRecord {
-    /// Of an image that is stored in this form, in rows of `width` texels.
+    /// The placement of an image stored in this form, in rows of `width` texels.
     pub(crate) fn new(
         [[a, b, c], [d, e, f]]: [[f32; 3]; 2],
         amount: f32,
@@ -41,8 +42,8 @@ impl PlacingRecord {
     }
 }
 
-/// How many levels there are, along u and along v where that is asked for, what else `by_shape.wgsl` needs, and where
-/// they are.
+/// The numbers of levels (along u and along v for ripmaps), a further number for `by_shape.wgsl`, and the positions of
+/// the levels.
 type Places = ([u32; 3], [[u32; 4]; 14]);
 
 fn of_pyramid(pyramid: &Pyramid) -> Places {
@@ -53,7 +54,7 @@ fn of_pyramid(pyramid: &Pyramid) -> Places {
     ([pyramid.levels().len() as u32, 0, 0], level)
 }
 
-/// Of each number of halvings: the columns of all wider images of a row, its width, its height, and the rows of all
+/// For each number of halvings: the columns of all wider images of a row, its width, its height, and the rows of all
 /// higher ones.
 fn of_ripmap(ripmap: &Ripmap) -> Places {
     let [columns, rows] = ripmap.counts();
@@ -69,7 +70,7 @@ fn of_ripmap(ripmap: &Ripmap) -> Places {
     ([columns as u32, rows as u32, wider], level)
 }
 
-/// The image itself, then the table of its sums, two texels each, the mean, and what the sums are in units of.
+/// The image itself, then the table of its sums, two texels each, the mean, and the unit of the sums.
 fn of_sums([width, height]: [u32; 2], sums: &SummedAreas) -> Places {
     let mut level = [[0; 4]; 14];
     level[0] = [0, width, height, 0];
@@ -79,7 +80,7 @@ fn of_sums([width, height]: [u32; 2], sums: &SummedAreas) -> Places {
     ([1, 0, 0], level)
 }
 
-/// The unit in which sums are kept, a number of f32: the largest, or 1 where all are 0.
+/// The unit of stored sums, exact in f32: the largest sum, or 1 if all are 0.
 fn unit_of(sums: &SummedAreas) -> [f64; 4] {
     sums.largest().map(|largest| if largest > 0.0 { f64::from(largest.min(f32::MAX.into()) as f32) } else { 1.0 })
 }
@@ -98,8 +99,8 @@ pub(crate) fn stored(pyramid: &Pyramid, form: ImageForm) -> Cow<'_, [[f32; 4]]> 
     }
 }
 
-/// Numbers of at most about 1 as a whole number of 2⁻²² and the rest. Sums and differences of four of the first halves
-/// are exact in f32, in any order; the others are off by 2⁻⁴⁸.
+/// Splits numbers of at most about 1 into a multiple of 2⁻²² and the rest. Sums and differences of four of the first
+/// halves are exact in f32, in any order; the others are off by 2⁻⁴⁸.
 fn split(numbers: [f64; 4]) -> [[f32; 4]; 2] {
     const STEPS: f64 = (1 << 22) as f64;
     let coarse = numbers.map(|number| (number * STEPS).round() / STEPS);

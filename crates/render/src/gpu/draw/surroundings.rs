@@ -1,4 +1,4 @@
-//! Upload: the environment that draws read, on the GPU, and the pipeline of what is seen of it behind everything.
+//! The set Upload: uploads the environment, and builds the pipeline of the sky.
 
 use crate::gpu::attachments::{DEPTH_FORMAT, ShaderOutput};
 use crate::gpu::device::Gpu;
@@ -13,7 +13,7 @@ use halfway_frame::view::camera::View;
 use halfway_texture::environment::SurroundingsData;
 use halfway_texture::environment::{EnvironmentLevel, EnvironmentMap};
 
-/// The environment that was drawn last, and what draws the sky. Empty until there is one.
+/// The last drawn environment, and the pipeline of the sky. Empty without an environment.
 #[derive(Default)]
 pub(crate) struct SurroundingsOnGpu {
     texture: Option<(EnvironmentMap, wgpu::TextureView)>,
@@ -24,7 +24,7 @@ pub(crate) struct SurroundingsOnGpu {
     shows_sky: bool,
 }
 
-/// How an environment is looked up; `Surroundings` in surroundings.wgsl.
+/// The parameters of an environment; `Surroundings` in surroundings.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct SurroundingsRecord {
@@ -68,7 +68,7 @@ impl SurroundingsRecord {
 }
 
 impl SurroundingsOnGpu {
-    /// Sends what has changed of the environment, and makes ready what draws the sky.
+    /// Uploads changes of the environment, and prepares the pipeline of the sky.
     pub(crate) fn make_ready(
         &mut self,
         gpu: &Gpu,
@@ -98,13 +98,13 @@ impl SurroundingsOnGpu {
         self.group.as_ref()
     }
 
-    /// The pipeline of the sky, where it is seen.
+    /// The pipeline of the sky, if the sky is drawn.
     pub(crate) fn sky(&self) -> Option<(&wgpu::RenderPipeline, &wgpu::BindGroup)> {
         let (_, pipeline) = self.sky.as_ref().filter(|_| self.shows_sky)?;
         Some((pipeline, self.group.as_ref()?))
     }
 
-    /// Returns how many bytes had to be sent.
+    /// Returns the number of uploaded bytes.
     fn send(&mut self, gpu: &Gpu, placed: &SurroundingsData, view: &View) -> Result<u64, RenderError> {
         let mut bytes = 0;
         if self.texture.as_ref().is_none_or(|(map, _)| !map.is_same(&placed.map)) {
@@ -146,7 +146,7 @@ impl SurroundingsOnGpu {
     }
 }
 
-/// One triangle over the whole picture, before everything else; it leaves the depth as it is.
+/// One triangle over the whole picture, drawn first; it does not write depth.
 fn sky_pipeline(gpu: &Gpu, output: ShaderOutput) -> wgpu::RenderPipeline {
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("sky"),

@@ -1,4 +1,4 @@
-//! Upload: what changed since the last frame goes to the GPU, and nothing else.
+//! The set Upload: uploads only data that changed since the last frame.
 
 use crate::gpu::attachments::Target;
 use crate::gpu::device::Gpu;
@@ -20,7 +20,7 @@ use halfway_frame::view::camera::View;
 use halfway_lighting::record::LightRecord;
 use halfway_texture::Texture;
 
-/// A GPU buffer with the bytes it holds, so that equal bytes are not sent again.
+/// A GPU buffer with a copy of its bytes, so that equal bytes are not uploaded again.
 struct Mirrored {
     label: &'static str,
     usage: wgpu::BufferUsages,
@@ -33,8 +33,8 @@ impl Mirrored {
         Self { label, usage: usage | wgpu::BufferUsages::COPY_DST, buffer: None, bytes: Vec::new() }
     }
 
-    /// Makes the buffer hold `bytes`, at least `room` long. Returns the bytes sent and whether the
-    /// buffer is a new one.
+    /// Makes the buffer hold `bytes`, with at least `room` bytes of space. Returns the number of uploaded bytes and
+    /// whether the buffer is new.
     fn set(&mut self, gpu: &Gpu, bytes: &[u8], room: u64) -> Result<(u64, bool), RenderError> {
         let needed = room.max(bytes.len() as u64).max(16).next_multiple_of(16);
         let limit = gpu.device.limits().max_buffer_size;
@@ -85,9 +85,9 @@ fn changed_range(old: &[u8], new: &[u8]) -> std::ops::Range<usize> {
 pub(crate) struct Buffers {
     view: Mirrored,
     records: Mirrored,
-    /// For lists.
+    /// The lights for lists.
     lights: Mirrored,
-    /// All of a scene with few.
+    /// All lights of a scene with few.
     few_lights: Mirrored,
     lists: Mirrored,
     instances: Mirrored,
@@ -132,7 +132,7 @@ impl Buffers {
     pub(crate) fn bindings(&self, state: &DrawState) -> Option<(&wgpu::BindGroup, u32)> {
         let record = state.record * RECORD_BYTES as u32;
         let Groups { few, one, all } = &self.groups;
-        let (group, offset) = match Text::of(&state.key).lights {
+        let (group, offset) = match Text::from_key(&state.key).lights {
             LightText::Few => (few, record),
             LightText::Listed if state.key.per_instance => (all, 0),
             LightText::Listed => (one, record),
@@ -150,14 +150,14 @@ impl Buffers {
         let view = ViewRecord::from(view);
         let all_lights = lit.lists.sent.records.as_slice();
         let has_lists =
-            batches.draws.groups().iter().any(|group| Text::of(&group.state.key).lights == LightText::Listed);
+            batches.draws.groups().iter().any(|group| Text::from_key(&group.state.key).lights == LightText::Listed);
         let listed = if has_lists { all_lights } else { &[] };
         let few = if all_lights.len() <= COUNTED_LIGHTS as usize { all_lights } else { &[] };
         let sent = [
             self.view.set(gpu, bytemuck::bytes_of(&view), 0)?,
             self.records.set(gpu, bytemuck::cast_slice(&lit.records), RECORD_BYTES)?,
             self.lights.set(gpu, bytemuck::cast_slice(listed), size_of::<LightRecord>() as u64)?,
-            // Bound as if it had all lights that fit.
+            // The buffer has space for all lights that fit.
             self.few_lights.set(gpu, bytemuck::cast_slice(few), COUNTED_LIGHT_BYTES)?,
             self.lists.set(gpu, bytemuck::cast_slice(&lit.lists.numbers), 0)?,
         ];
@@ -169,7 +169,7 @@ impl Buffers {
         Ok(sent.iter().map(|(bytes, _)| bytes).sum::<u64>() + instances)
     }
 
-    /// Makes the bindings that are not there.
+    /// Creates missing bindings.
     fn bind(&mut self, gpu: &Gpu, pipelines: &Pipelines) -> Result<(), RenderError> {
         let (Some(view), Some(records), Some(lights), Some(few_lights), Some(lists)) =
             (&self.view.buffer, &self.records.buffer, &self.lights.buffer, &self.few_lights.buffer, &self.lists.buffer)
@@ -209,7 +209,7 @@ impl Buffers {
     }
 }
 
-/// Builds the pipelines that what is about to be drawn still lacks.
+/// Builds the missing pipelines of the frame's draws.
 pub(crate) fn build_pipelines(
     gpu: Res<Gpu>,
     batches: Res<Batches>,
@@ -247,7 +247,7 @@ pub(crate) fn upload(
     }
 }
 
-/// Sends the images that the draws read.
+/// Uploads the images that the draws read.
 pub(crate) fn upload_maps(
     gpu: Res<Gpu>,
     lit: Res<LitPatches>,
@@ -259,7 +259,7 @@ pub(crate) fn upload_maps(
     buffers.maps.send(&gpu, &pipelines, &lit.table.maps, &textures, &mut report);
 }
 
-/// Sends the environment that the draws and the sky read.
+/// Uploads the environment that the draws and the sky read.
 pub(crate) fn upload_surroundings(
     gpu: Res<Gpu>,
     surroundings: Res<Surroundings>,

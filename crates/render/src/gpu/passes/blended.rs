@@ -1,9 +1,9 @@
-//! Blended objects, the farthest first, over all that is opaque.
+//! Blended objects, the farthest first, over the opaque ones.
 
 use crate::gpu::passes::{ScenePasses, groups};
 use halfway_frame::passes::Phase;
 
-/// Draws them, and returns how many draws had to be left out.
+/// Draws them, and returns the number of omitted draws.
 pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &ScenePasses<'_>) -> u32 {
     groups::record(pass, scene, Phase::Blended)
 }

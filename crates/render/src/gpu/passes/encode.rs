@@ -1,4 +1,4 @@
-//! Draw and Deliver: the pass is encoded, submitted and presented.
+//! The sets Draw and Deliver: encodes, submits and presents the passes.
 
 use crate::gpu::attachments::{Delivery, FramePicture, Target};
 use crate::gpu::device::Gpu;
@@ -68,7 +68,7 @@ pub(crate) fn draw(
 
 type TimestampWrites<'a> = Option<wgpu::RenderPassTimestampWrites<'a>>;
 
-/// The time stamps that the first pass of a frame writes, and the last one where that is another.
+/// The time stamps that the first pass of a frame writes, and those of the last one if it is another.
 fn around(timing: TimestampWrites<'_>, others_follow: bool) -> [TimestampWrites<'_>; 2] {
     match timing {
         Some(both) if others_follow => {
@@ -79,7 +79,7 @@ fn around(timing: TimestampWrites<'_>, others_follow: bool) -> [TimestampWrites<
     }
 }
 
-/// The passes over the finished picture, where the camera's policy takes any.
+/// The passes over the finished picture, if the camera's policy needs any.
 fn finish(
     encoder: &mut wgpu::CommandEncoder,
     (list, target): (&Passes, &Target),
@@ -143,12 +143,12 @@ fn begin<'a>(
     Some(pass)
 }
 
-/// The error of draws that are left out where there is none yet.
+/// The error of omitted draws, if no other error explains them.
 fn unsaid(draws: u32, report: &FrameReport) -> Option<RenderError> {
     (draws > 0 && report.errors.is_empty()).then_some(RenderError::LeftOut { draws })
 }
 
-/// Shows the frame where it goes to a window, and asks the device whether it is still there.
+/// Presents the frame in a window, and polls the device for its loss.
 pub(crate) fn present(
     gpu: Res<Gpu>,
     mut target: ResMut<Target>,
@@ -158,23 +158,23 @@ pub(crate) fn present(
     if let Some(surface) = target.take_surface_texture() {
         times.at_display(|| gpu.queue.present(surface));
     }
-    // Whatever else has failed, it is why.
+    // A lost device is the cause of all other errors.
     if let Err(error) = gpu.poll(wgpu::PollType::Poll) {
         report.errors.insert(0, error);
     }
 }
 
-/// Draws the frame that the render schedule has made for a [`TextureTarget`](crate::TextureTarget) by an encoder of the
-/// engine's own, which must come from the device of the world's [`Gpu`]. The pass begins as the
-/// target's [`Load`](crate::Load) says.
+/// Draws the frame that the render schedule has prepared for a [`TextureTarget`](crate::TextureTarget) with the
+/// engine's encoder, which must come from the device of the world's [`Gpu`]. The pass begins as
+/// the target's [`Load`](crate::Load) says.
 ///
-/// The data of the pass is on its way already: submit the encoder on the queue of that `Gpu`, before the render schedule
+/// The data of the pass is uploaded already: submit the encoder on the queue of that `Gpu`, before the render schedule
 /// runs again. Until then a frame can be encoded more than once. [`GpuTimer`] does not time it.
 ///
 /// # Errors
 /// [`RenderError::NoFrame`] before the schedule has run with a `TextureTarget`, or the first error of
-/// [`FrameReport::errors`] where the frame could not be made; [`RenderError::LeftOut`]. With `Ok`, what was left out of
-/// the frame is in the report.
+/// [`FrameReport::errors`] if the frame could not be prepared; [`RenderError::LeftOut`]. With `Ok`, the report lists
+/// what was left out of the frame.
 pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result<(), RenderError> {
     let ready = || {
         let target = world.get_resource::<Target>()?;
@@ -213,7 +213,7 @@ mod tests {
     use halfway_frame::sets::RenderSet;
     use halfway_mesh::{Cuboid, Mesh, Mesh3d};
 
-    /// Takes away what the draws of a box read once they are made: the frame has no error but this one.
+    /// Removes the meshes after the draws of a box are made: the frame has only this error.
     #[test]
     fn nothing_is_left_out_without_an_error() {
         fn lose_meshes(mut meshes: ResMut<MeshBuffers>) {

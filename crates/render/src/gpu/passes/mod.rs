@@ -1,5 +1,5 @@
-//! The passes of a view on wgpu, a file for each phase. Those from the sky to the App's own share one pass of wgpu, with
-//! its color and its depth; a policy passes over the finished picture in passes of its own.
+//! The passes of a view on wgpu, a file for each phase. Those from the sky to the App's own share one render pass of
+//! wgpu, with its color and its depth; an intensity policy has render passes of its own over the finished picture.
 
 mod blended;
 pub(crate) mod encode;
@@ -16,7 +16,7 @@ use crate::gpu::pipelines::cache::Pipelines;
 use halfway_frame::batch::batches::Batches;
 use halfway_frame::passes::{Passes, Phase};
 
-/// All that the passes of a scene draw.
+/// The data of a scene's passes.
 pub(crate) struct ScenePasses<'a> {
     pub(crate) list: &'a Passes,
     pub(crate) batches: &'a Batches,
@@ -27,7 +27,7 @@ pub(crate) struct ScenePasses<'a> {
 }
 
 impl ScenePasses<'_> {
-    /// Draws what is there to draw with, and returns how many draws had to be left out.
+    /// Draws all passes, and returns the number of omitted draws.
     pub(crate) fn record(&self, pass: &mut wgpu::RenderPass<'_>) -> u32 {
         let mut left_out = 0;
         for phase in Phase::ALL.into_iter().filter(|&phase| self.list.has(phase)) {

@@ -1,4 +1,4 @@
-//! Passes of an App's own, over the scene and before the policy.
+//! Custom passes of an App, over the scene and before the policy.
 
 use crate::gpu::attachments::{DEPTH_FORMAT, Target};
 use crate::gpu::device::Gpu;
@@ -11,9 +11,9 @@ use halfway_frame::report::FrameReport;
 use halfway_frame::view::camera::{PictureSize, View};
 use std::error::Error;
 
-/// A pass of an App's own, which draws over the scene on wgpu: lines, labels, a grid. It shares the scene's attachments,
-/// so that the scene hides what is behind it, and the camera's intensity policy acts on what it draws. Register it
-/// with [`AddOverPass::add_over_pass`].
+/// A custom pass of an App, which draws over the scene on wgpu: lines, labels, a grid. It shares the scene's
+/// attachments, so that the scene hides the parts behind it, and the camera's intensity policy applies to it. Register
+/// it with [`AddOverPass::add_over_pass`].
 ///
 /// The CPU does not draw such passes: [`FrameReport::passes_refused`] counts them, and the log names each once.
 ///
@@ -44,18 +44,18 @@ pub trait OverPass: Send + Sync + 'static {
     /// Its name, for errors and the log.
     fn name(&self) -> &str;
 
-    /// Makes ready what this frame draws, before the frame is encoded, and returns how much that is. With no draw,
+    /// Prepares this frame's draws, before the frame is encoded, and returns their numbers. Without draws,
     /// [`OverPass::draw`] is not called.
     ///
-    /// The world is as the frame sees it, without the passes themselves.
+    /// The world is that of the frame, without the passes themselves.
     ///
     /// # Errors
     /// Any: the pass is then left out of the frame, and [`FrameReport::errors`] holds [`RenderError::Pass`] with its
     /// message.
     fn prepare(&mut self, view: &OverView<'_>, world: &World) -> Result<PassCounts, Box<dyn Error>>;
 
-    /// Draws into the scene's pass. Pipelines, bindings and buffers are as the scene left them, so set all that is
-    /// read; set a viewport or a scissor back before the end, since other passes follow.
+    /// Draws into the scene's pass. Pipelines, bindings and buffers are as the scene left them, so set all that you
+    /// use; reset a viewport or a scissor before the end, since other passes follow.
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>);
 }
 
@@ -63,7 +63,7 @@ pub trait OverPass: Send + Sync + 'static {
 pub struct OverView<'a> {
     /// The device that draws the frame.
     pub device: &'a wgpu::Device,
-    /// Its queue. Whatever is written to it in [`OverPass::prepare`] is there when the frame is drawn.
+    /// Its queue. Data written to it in [`OverPass::prepare`] is available when the frame is drawn.
     pub queue: &'a wgpu::Queue,
     /// The attachments that pipelines must fit.
     pub target: OverTarget,
@@ -75,8 +75,8 @@ pub struct OverView<'a> {
     pub size: UVec2,
 }
 
-/// The attachments of a frame. While it is equal, what was made for it fits: keep it beside pipelines and buffers,
-/// and make them anew when it changes.
+/// The attachments of a frame. Pipelines made for an equal value fit: keep it beside pipelines and buffers, and
+/// recreate them when it changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OverTarget {
     /// The format of the only color attachment.
@@ -88,11 +88,11 @@ pub struct OverTarget {
     /// Whether shaders write sRGB values themselves. If not, they write linear ones, or what an
     /// [`Encoding::Raw`](halfway_lighting::Encoding::Raw) picture holds.
     pub encoded: bool,
-    /// Tells devices apart: another number after a device was lost or replaced.
+    /// Identifies the device: the number changes when a device is lost or replaced.
     pub device: u64,
 }
 
-/// The passes of the App's own, in the order in which they were added.
+/// The App's custom passes, in the order in which they were added.
 #[derive(Resource, Default)]
 pub(crate) struct OverPasses(Vec<Registered>);
 
@@ -100,13 +100,13 @@ struct Registered {
     pass: Box<dyn OverPass>,
     /// Whether it draws in this frame.
     draws: bool,
-    /// Whether the log says that the CPU does not draw it.
+    /// Whether the log has reported that the CPU does not draw it.
     refused: bool,
 }
 
-/// Registers passes of an App's own.
+/// Registers custom passes.
 pub trait AddOverPass {
-    /// Adds a pass over the scene, after those that were added before; before or after the plugins.
+    /// Adds a pass over the scene, after those added earlier. May be called before or after adding the plugins.
     fn add_over_pass(&mut self, pass: impl OverPass) -> &mut Self;
 }
 
@@ -119,7 +119,7 @@ impl AddOverPass for App {
     }
 }
 
-/// Makes the passes ready, lists what they draw, and reports what they could not.
+/// Prepares the passes, lists their draws, and reports their errors.
 pub(crate) fn prepare(world: &mut World) {
     world.resource_scope(|world, mut over: Mut<OverPasses>| {
         let prepared: Vec<_> = over.0.iter_mut().map(|registered| registered.prepare(world)).collect();
@@ -133,12 +133,12 @@ pub(crate) fn prepare(world: &mut World) {
     });
 }
 
-/// Whether the App has passes of its own.
+/// Whether the App has custom passes.
 pub(crate) fn is_any(over: Option<Res<OverPasses>>) -> bool {
     over.is_some()
 }
 
-/// Says that the CPU draws none of them: in each report, and of each pass once in the log.
+/// Reports that the CPU draws none of them: in each frame's report, and once for each pass in the log.
 pub(crate) fn refuse_on_cpu(mut over: ResMut<OverPasses>, mut report: ResMut<FrameReport>) {
     report.passes_refused = over.0.len() as u32;
     for Registered { pass, refused, .. } in &mut over.0 {
@@ -168,7 +168,7 @@ impl Registered {
 }
 
 impl<'a> OverView<'a> {
-    /// `None` where there is no frame, or no camera.
+    /// `None` without a frame or a camera.
     fn new(world: &'a World) -> Option<Self> {
         let (gpu, view) = (world.get_resource::<Gpu>()?, world.get_resource::<View>()?);
         let output = world.get_resource::<Target>()?.frame.as_ref()?.output;

@@ -1,5 +1,5 @@
-//! Passes over the finished picture, by the camera's intensity policy: from the floating point that the scene is drawn
-//! into to what the target holds.
+//! Passes over the finished picture, by the camera's intensity policy: from the floating-point scene to the target's
+//! values.
 
 use crate::gpu::device::Gpu;
 use crate::gpu::shaders::picture::{PICTURE_FILES, PicturePolicyRecord};
@@ -13,9 +13,9 @@ pub(crate) struct PicturePasses {
     policy: wgpu::Buffer,
     /// Its contents.
     written: PicturePolicyRecord,
-    /// Where the policy divides.
+    /// The division, if the policy divides.
     division: Option<Division>,
-    /// By which of the divisors.
+    /// The bindings of the last pass, for either divisor.
     finish: [wgpu::BindGroup; 2],
     finished: wgpu::RenderPipeline,
 }
@@ -28,27 +28,28 @@ struct MadeAs {
     divides: bool,
 }
 
-/// The way to the number by which a picture is divided.
+/// The reduction to the divisor of a picture.
 struct Division {
     largest: wgpu::RenderPipeline,
     next_divisor: wgpu::RenderPipeline,
-    /// The bindings that are read and the view that is written: the largest channel of each block, down to few.
+    /// The input bindings and the output view of each step: the largest channel of each block, down to a few texels.
     blocks: Vec<(wgpu::BindGroup, wgpu::TextureView)>,
-    /// The last step, with the divisor before: that of the second texture, or of the first.
+    /// The last step, with the previous divisor: that of the second texture, or of the first.
     last: [wgpu::BindGroup; 2],
     divisors: [wgpu::TextureView; 2],
     /// Which of them this frame writes.
     now: usize,
-    /// Whether the other one holds that of the frame before.
+    /// Whether the other one holds the previous frame's divisor.
     has_before: bool,
 }
 
-/// Texels a side of which a pass makes one: `BLOCK` of `picture.wgsl`.
+/// A pass reduces blocks of this many texels a side to one: `BLOCK` of `picture.wgsl`.
 const BLOCK: u32 = 8;
 const NUMBER: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 
 impl PicturePasses {
-    /// Makes the frame's passes ready, out of those of the frame before where they fit; and how many bytes were sent.
+    /// Prepares the frame's passes, reusing those of the previous frame if they fit; returns the number of uploaded
+    /// bytes.
     pub(crate) fn prepare(
         before: Option<Self>,
         gpu: &Gpu,
@@ -80,12 +81,12 @@ impl PicturePasses {
         &self.drawn
     }
 
-    /// How many passes there are.
+    /// The number of passes.
     pub(crate) fn count(&self) -> u32 {
         1 + self.division.as_ref().map_or(0, |division| division.blocks.len() as u32 + 1)
     }
 
-    /// Has them done, behind the scene's pass.
+    /// Encodes them after the scene's pass.
     pub(crate) fn record(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -159,7 +160,7 @@ impl PicturePasses {
             }
         });
         let finished = pipeline("finished", output);
-        // It is written by the first frame.
+        // The first frame writes it.
         let written = PicturePolicyRecord { curve: u32::MAX, ..PicturePolicyRecord::default() };
         Self { made_as, drawn, policy, written, division, finish, finished }
     }
@@ -245,7 +246,7 @@ fn pass(
             view,
             depth_slice: None,
             resolve_target: None,
-            // All of it is drawn over.
+            // The whole target is overwritten.
             ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
         })],
         timestamp_writes,

@@ -2,7 +2,7 @@
 
 use crate::gpu::draw::upload::Buffers;
 
-/// Draws the environment, where what draws it is there.
+/// Draws the environment, if its pipeline exists.
 pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, buffers: &Buffers) {
     if let Some((pipeline, surroundings)) = buffers.surroundings.sky() {
         pass.set_pipeline(pipeline);

@@ -1,4 +1,4 @@
-//! How a pipeline is built from its key.
+//! Builds a pipeline from its key.
 
 use crate::gpu::attachments::{DEPTH_FORMAT, ShaderOutput};
 use crate::gpu::device::Gpu;
@@ -24,7 +24,7 @@ const FACE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x3
 impl Shader {
     pub(crate) fn build(&self, gpu: &Gpu, pipeline: PipelineKey) -> wgpu::RenderPipeline {
         let PipelineKey { draw: key, output } = pipeline;
-        let text = Text::of(&key);
+        let text = Text::from_key(&key);
         let buffer = |used: bool, attributes, stride| {
             let step_mode = wgpu::VertexStepMode::Vertex;
             used.then_some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes })
@@ -90,7 +90,7 @@ impl Shader {
     }
 }
 
-/// opacity·I + (1 − opacity)·what is behind; the picture stays opaque.
+/// opacity·I + (1 − opacity)·B over the color B behind; the picture stays opaque.
 const OVER: wgpu::BlendState = wgpu::BlendState {
     color: wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::SrcAlpha,
@@ -127,7 +127,7 @@ fn constants(key: &DrawKey, output: ShaderOutput) -> Vec<(&'static str, f64)> {
     if key.is_mapped() { constants.into_iter().chain(map_constants(key)).collect() } else { constants }
 }
 
-/// How images are looked up, by the names of maps.wgsl.
+/// The constants of image lookups, by their names in maps.wgsl.
 fn map_constants(key: &DrawKey) -> impl Iterator<Item = (&'static str, f64)> {
     const NAMES: [&str; MapKind::COUNT] = [
         "COLOR_MAP",

@@ -1,4 +1,4 @@
-//! The pipelines that are there: bounded in number, and built when [`Compile`] says.
+//! The pipeline cache: bounded in size, and filled as [`Compile`] says.
 
 use crate::gpu::attachments::{Delivery, ShaderOutput, Target};
 use crate::gpu::device::Gpu;
@@ -13,41 +13,41 @@ use halfway_frame::error::RenderError;
 use halfway_frame::report::FrameReport;
 use std::sync::Arc;
 
-/// The most specialised pipelines that are kept. What a frame asks for beyond them is drawn by generic ones, which are
-/// slower, and few: they differ only in where their terms are shaded, the reflectance, the viewer, faces, blending and
-/// the target. A draw that looks up records for its instances has a pipeline beside that of its key.
+/// The most specialised pipelines that are kept. Further draws of a frame use generic ones, which are slower, and few:
+/// they differ only in the frequencies of their terms, the reflectance, the viewer, faces, blending and the target. A
+/// draw that looks up records for its instances has a second pipeline beside that of its key.
 const MOST_SPECIAL: usize = 128;
 
-/// A specialised pipeline that was not used for more than this number of frames makes room for another. It is the
-/// frames of a second: a scene that changes between more pipelines than are kept must not build them again and again.
+/// A specialised pipeline may be evicted once it was unused for more than this number of frames, about a second: a
+/// scene that alternates between more pipelines than are kept must not rebuild them over and over.
 const KEPT_FRAMES: u64 = 60;
 
-/// The pipelines, with what they share.
+/// The pipelines, with their shared state.
 #[derive(Resource, Default)]
 pub(crate) struct Pipelines {
     shaders: Arc<Shaders>,
-    /// Its hashes are the same in every run, and so is which of equally old ones goes first.
+    /// Its hashes are the same in every run, and so is the order of eviction among equally old ones.
     variants: HashMap<PipelineKey, PipelineVariant>,
-    /// How many of them are specialised, those that look up records aside.
+    /// The number of specialised ones, without those that look up records.
     special: usize,
     /// The number of the frame.
     frame: u64,
     /// The output of the frame.
     output: ShaderOutput,
     lights_images_by_environments: bool,
-    /// No specialised pipeline can make room in this frame.
+    /// Whether no specialised pipeline can be evicted in this frame.
     full: bool,
-    /// The keys for which there was no room in this frame.
+    /// The keys that were refused for lack of space in this frame.
     refused: HashSet<PipelineKey>,
-    /// The keys for which there was no room in the frame before.
+    /// The keys that were refused in the previous frame.
     refused_before: HashSet<PipelineKey>,
-    /// The last key of this frame, and the answer for it.
+    /// The last key of this frame, and the key that was admitted for it.
     last: Option<(DrawKey, DrawKey)>,
     compile: Option<Compile>,
     background: Background,
-    /// Those that a frame has waited for, and whose relatives have not been asked for yet.
+    /// Pipelines that a frame has waited for, and whose generic relatives are not requested yet.
     unforeseen: Vec<PipelineKey>,
-    /// Failures beside the frames that have not been reported yet.
+    /// Failures in the background that are not reported yet.
     failures: Vec<RenderError>,
     /// Since the start.
     built: u32,
@@ -55,13 +55,13 @@ pub(crate) struct Pipelines {
     awaited: u32,
 }
 
-/// The builder beside the frames.
+/// The builder in the background.
 #[derive(Default)]
 enum Background {
     #[default]
     NotYet,
     Running(Builder),
-    /// The system gives no thread. It is not tried again.
+    /// The system refused a thread, which is not tried again.
     Unavailable,
 }
 
@@ -77,14 +77,14 @@ enum VariantState {
     /// It may be built.
     #[default]
     Admitted,
-    /// On its way.
+    /// It is being built.
     Asked,
     Built(wgpu::RenderPipeline),
     Failed(RenderError),
 }
 
 impl Pipelines {
-    /// Begins a frame, and takes in what has been built beside the frames.
+    /// Begins a frame, and collects pipelines built in the background.
     fn begin(&mut self, gpu: &Gpu, output: ShaderOutput, compile: Compile) {
         self.frame += 1;
         self.output = output;
@@ -106,11 +106,11 @@ impl Pipelines {
         }
     }
 
-    /// Takes in what has been built beside the frames.
+    /// Collects pipelines built in the background.
     fn take_in(&mut self) {
         let Background::Running(builder) = &self.background else { return };
         for (key, result) in builder.built() {
-            // A frame may have built it rather than wait for its turn, or it may have been given up.
+            // A frame may have built it itself instead of waiting, or it may have been evicted.
             if let Some(variant) =
                 self.variants.get_mut(&key).filter(|variant| matches!(variant.state, VariantState::Asked))
             {
@@ -123,7 +123,7 @@ impl Pipelines {
         }
     }
 
-    /// Whether the frame waits for the pipelines that it asks for.
+    /// Whether the frame waits for the pipelines that it requests.
     fn waits(&self) -> bool {
         self.compile != Some(Compile::Beside) || !matches!(self.background, Background::Running(_))
     }
@@ -138,21 +138,20 @@ impl Pipelines {
         self.shaders.layouts.of_images(has_solid).get()
     }
 
-    /// The pipeline that draws this into what the frame draws into.
+    /// The key of a draw's pipeline for the frame's output.
     fn key(&self, draw: DrawKey) -> PipelineKey {
         PipelineKey { draw, output: self.output }
     }
 
-    /// Whether a specialised pipeline may be there; it is kept for now if so.
+    /// Whether a specialised pipeline may be in the cache; if so it is marked as used.
     fn has_room(&mut self, draw: DrawKey) -> bool {
         let key = self.key(draw);
         if let Some(variant) = self.variants.get_mut(&key) {
             variant.used = self.frame;
             return true;
         }
-        // The pipelines that a frame uses are known when it is over. Only those refused in the frame before takes the place of
-        // another, so that nothing takes the place of what this frame is about to ask for, which would then take
-        // another's.
+        // The pipelines that a frame uses are known only at its end. Only keys refused in the previous frame may evict
+        // others, so that no key evicts a pipeline that this frame still needs, which would then evict another.
         let asked_before = self.refused_before.contains(&key);
         if self.special < MOST_SPECIAL || asked_before && self.give_up_one() {
             self.special += 1;
@@ -165,7 +164,7 @@ impl Pipelines {
         false
     }
 
-    /// Gives up the specialised pipeline that has not been used for longest, unless it was used too lately.
+    /// Evicts the least recently used specialised pipeline, unless it was used too recently.
     fn give_up_one(&mut self) -> bool {
         if self.full {
             return false;
@@ -183,13 +182,13 @@ impl Pipelines {
         true
     }
 
-    /// Asks for the pipeline if it is not there.
+    /// Requests the pipeline if it is missing.
     fn is_there(&mut self, draw: DrawKey) -> bool {
         self.ask(self.key(draw));
         self.get(draw).is_some()
     }
 
-    /// Has it built beside the frames, unless it was asked for before.
+    /// Requests it in the background, unless it was requested before.
     fn ask(&mut self, key: PipelineKey) {
         let Background::Running(builder) = &self.background else { return };
         let variant = self.variants.entry(key).or_default();
@@ -198,12 +197,12 @@ impl Pipelines {
         }
     }
 
-    /// Whether it is known that the pipeline cannot be built.
+    /// Whether the pipeline has failed to build.
     fn has_failed(&self, draw: DrawKey) -> bool {
         matches!(self.variants.get(&self.key(draw)), Some(PipelineVariant { state: VariantState::Failed(_), .. }))
     }
 
-    /// The pipeline of such draws in this frame, if it is there.
+    /// The pipeline of such draws in this frame, if it exists.
     pub(crate) fn get(&self, draw: DrawKey) -> Option<&wgpu::RenderPipeline> {
         match &self.variants.get(&self.key(draw))?.state {
             VariantState::Built(pipeline) => Some(pipeline),
@@ -211,10 +210,10 @@ impl Pipelines {
         }
     }
 
-    /// Builds the pipeline unless it is there.
+    /// Builds the pipeline unless it exists.
     ///
     /// # Errors
-    /// Why it cannot be built.
+    /// The reason why it cannot be built.
     pub(crate) fn ensure(&mut self, gpu: &Gpu, draw: DrawKey) -> Result<(), RenderError> {
         let key = self.key(draw);
         let state = &mut self.variants.entry(key).or_default().state;
@@ -230,7 +229,7 @@ impl Pipelines {
         if let VariantState::Failed(error) = state { Err(error.clone()) } else { Ok(()) }
     }
 
-    /// Tells how many there are, and what went wrong beside the frames.
+    /// Reports the number of pipelines, and failures in the background.
     pub(crate) fn report(&mut self, report: &mut FrameReport) {
         let count =
             |is: fn(&VariantState) -> bool| self.variants.values().filter(|variant| is(&variant.state)).count() as u32;
@@ -259,15 +258,15 @@ impl Backend for Pipelines {
         self.lights_images_by_environments
     }
 
-    /// The key itself, or the generic one: where there is no room, where what the key needs cannot be
-    /// built, and until it is there.
+    /// The key itself, or the generic one if the cache has no space, if the pipeline cannot be built, and until it is
+    /// built.
     fn admit(&mut self, key: DrawKey) -> DrawKey {
         if let Some((asked, answer)) = self.last
             && asked == key
         {
             return answer;
         }
-        // Both passes ask for room, whether or not the first gets any, so that both get it in the same frame.
+        // Both passes request space, whether or not the first gets it, so that both get it in the same frame.
         let special = key.is_special()
             && key.passes().filter(|&pass| !self.has_room(pass)).count() == 0
             && !key.passes().any(|pass| self.has_failed(pass))
@@ -286,7 +285,7 @@ impl Backend for Pipelines {
     }
 }
 
-/// Begins a frame that has something to draw into.
+/// Begins a frame that has a target.
 pub(crate) fn begin(
     gpu: Res<Gpu>,
     target: Res<Target>,

@@ -1,4 +1,4 @@
-//! When pipelines are built: in the frame that needs them, or beside the frames by a thread of their own.
+//! Builds pipelines in the frame that needs them, or in the background on a thread.
 
 use crate::gpu::device::Gpu;
 use crate::gpu::pipelines::key::PipelineKey;
@@ -11,36 +11,36 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
-/// When pipelines are built. While this resource is not there, the target decides: [`Compile::Beside`] for a window's
-/// surface, [`Compile::Now`] for headless pictures.
+/// When pipelines are built. Without this resource the target decides: [`Compile::Beside`] for a window's surface,
+/// [`Compile::Now`] for headless pictures.
 ///
-/// A software adapter makes machine code when a pipeline first draws, whichever thread has built it; what goes beside
-/// the frames there is the work before.
+/// A software adapter generates machine code when a pipeline first draws, whichever thread has built it; there only the
+/// earlier work runs in the background.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Compile {
     /// In the frame that first needs them, which waits. Every frame is drawn by the pipelines made for it, so that two
     /// runs are equal to the byte.
     Now,
-    /// Beside the frames, but for those of the first frame that draws anything. Until a specialised pipeline is there,
-    /// the generic one draws in its place: the same picture but for rounding, more slowly. Generic ones are built ahead
-    /// for what is seen, under every shading and reflectance; a frame waits for one only where it needs one that was
-    /// not foreseen or is not ready ([`FrameReport::pipelines_awaited`](crate::FrameReport::pipelines_awaited)). Where
-    /// there is no thread that builds them, this is as [`Compile::Now`].
+    /// In the background on a thread, except those of the first frame that draws anything. Until a specialised pipeline
+    /// is built, a generic one draws in its place: the same picture up to rounding, more slowly. Generic ones are built
+    /// in advance for visible objects, under every shading and reflectance; a frame waits only for one that was not
+    /// built in advance or is not ready ([`FrameReport::pipelines_awaited`](crate::FrameReport::pipelines_awaited)).
+    /// Without a thread this is the same as [`Compile::Now`].
     Beside,
 }
 
-/// Builds a pipeline; what the driver has against it comes back as a message.
+/// Builds a pipeline, or returns the driver's error message.
 pub(crate) fn build(gpu: &Gpu, shaders: &Shaders, key: PipelineKey) -> Result<wgpu::RenderPipeline, String> {
     use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
-    // Scopes belong to the thread, so that two threads that build keep their errors apart.
+    // Error scopes are per thread, so that two building threads do not mix their errors.
     let scopes = [Validation, OutOfMemory, Internal].map(|filter| gpu.device.push_error_scope(filter));
-    let pipeline = shaders.with(gpu, Text::of(&key.draw), |shader| shader.build(gpu, key));
+    let pipeline = shaders.with(gpu, Text::from_key(&key.draw), |shader| shader.build(gpu, key));
     // Popped in reverse order, and all of them.
     let error = scopes.into_iter().rev().filter_map(|scope| block_on(scope.pop())).last();
     error.map_or(Ok(pipeline), |error| Err(error.to_string()))
 }
 
-/// One thread that builds pipelines, one after the other.
+/// A thread that builds pipelines, one after the other.
 pub(crate) struct Builder {
     ends: Option<Ends>,
     thread: Option<JoinHandle<()>>,
@@ -54,20 +54,20 @@ struct Ends {
 type Built = (PipelineKey, Result<wgpu::RenderPipeline, String>);
 
 impl Builder {
-    /// `None` where the system gives no thread.
+    /// `None` if the system refuses a thread.
     pub(crate) fn start(gpu: &Gpu, shaders: &Arc<Shaders>) -> Option<Self> {
         let (gpu, shaders) = (gpu.clone(), Arc::clone(shaders));
-        Self::of(move |key| build(&gpu, &shaders, key))
+        Self::with_build(move |key| build(&gpu, &shaders, key))
     }
 
-    /// A thread that builds in this way; `None` where the system gives none.
-    pub(crate) fn of(
+    /// A thread that builds with this function; `None` if the system refuses one.
+    pub(crate) fn with_build(
         build: impl Fn(PipelineKey) -> Result<wgpu::RenderPipeline, String> + Send + 'static,
     ) -> Option<Self> {
         let (wanted, wishes) = channel();
         let (sender, built) = channel();
         let work = move || {
-            // Ends when the builder is gone.
+            // Ends when the builder is dropped.
             for key in wishes {
                 log::debug!("building pipeline {key} beside the frames");
                 let built = catch_unwind(AssertUnwindSafe(|| build(key)));
@@ -80,7 +80,7 @@ impl Builder {
         Some(Self { ends: Some(Ends { wanted, built: Mutex::new(built) }), thread: Some(thread) })
     }
 
-    /// Whether there is a thread that will build it.
+    /// Requests a pipeline; returns whether a thread will build it.
     pub(crate) fn ask(&self, key: PipelineKey) -> bool {
         self.ends.as_ref().is_some_and(|ends| ends.wanted.send(key).is_ok())
     }
@@ -97,7 +97,7 @@ impl Drop for Builder {
     fn drop(&mut self) {
         self.ends = None;
         if let Some(thread) = self.thread.take() {
-            // It ends without a panic: those of builds are caught.
+            // The thread does not panic: panics of builds are caught.
             drop(thread.join());
         }
     }
@@ -110,7 +110,7 @@ mod tests {
     use halfway_frame::batch::key::DrawKey;
 
     #[test]
-    fn what_cannot_be_built_comes_back_as_an_error() {
+    fn a_failed_pipeline_returns_an_error() {
         let gpu = Gpu::open_headless().unwrap();
         let shaders = Arc::default();
         let builder = Builder::start(&gpu, &shaders).unwrap();

@@ -25,7 +25,7 @@ impl fmt::Display for PipelineKey {
 
 impl Text {
     /// The text whose pipelines such draws take.
-    pub(crate) fn of(key: &DrawKey) -> Self {
+    pub(crate) fn from_key(key: &DrawKey) -> Self {
         let lights = match key.lists {
             _ if key.per_instance => LightText::Listed,
             Lists::Listed => LightText::Listed,

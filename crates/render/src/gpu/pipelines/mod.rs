@@ -1,4 +1,4 @@
-//! Pipelines: their keys, how they are built, and which of them are there.
+//! Pipelines: their keys, their construction, and their cache.
 
 pub(crate) mod build;
 pub(crate) mod cache;

@@ -38,7 +38,7 @@ fn long_direction(moments: vec3f) -> vec2f {
 
 // ---- probes ---------------------------------------------------------------------------------------
 
-// Numbers to look an image up by that is reduced also where D is 0.
+// The filters of an image that is reduced also if D is 0.
 fn reduced(look: u32) -> u32 {
     return (look & ~3u) | minify_of(look);
 }
@@ -96,8 +96,8 @@ fn in_ripmap(image: texture_2d<f32>, slot: u32, look: u32, uv: vec2f, shape: Foo
 // Behind the image, level 1 is the table, with two texels for each sum; level 2 has the bits of the mean, level 3 those
 // of what the sums are in units of.
 
-// A part of an interval that lies within one image: from where to where in texels of it, and how often it counts.
-// Three of them are the whole.
+// A part of an interval that lies within one image: its ends in texels of it, and its weight. Three of them are the
+// whole.
 fn part_of(middle: f32, length: f32, side: f32, wrap: u32, number: u32) -> vec3f {
     if wrap == 2u {
         let at = clamp(middle * side, -length, side + length);
@@ -163,8 +163,7 @@ fn between_rows(a: Strip, b: Strip, weights: vec3f) -> vec4f {
     return (b.high - a.high) * weights + (b.low - a.low) * weights;
 }
 
-// The sum of a rectangle within the image, each texel being a square of its value: from where to where along u, and
-// along v.
+// The sum of a rectangle within the image, each texel being a square of its value: its ends along u, and along v.
 fn rectangle(image: texture_2d<f32>, slot: u32, along_u: vec2f, along_v: vec2f) -> vec4f {
     let last = vec2i(placings.each[slot].level[0].yz) - 1;
     let column = min(vec2i(along_u), vec2i(last.x));

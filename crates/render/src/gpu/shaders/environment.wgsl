@@ -21,7 +21,7 @@ fn mean_light(c: array<vec3f, 9>, n: vec3f) -> vec3f {
     return max(constant + mixed + squares, vec3f());
 }
 
-// Where on its face of a cube map a direction lies, and the number of the face.
+// The position of a direction on its face of a cube map, and the number of the face.
 fn on_cube(d: vec3f) -> vec3f {
     let a = abs(d);
     var place = vec3f(select(-d.x, d.x, d.z >= 0.0), -d.y, a.z);

@@ -1,7 +1,7 @@
-// The equations in eye space, linear RGB, but for the functions of the kinds of light, which halfway_lighting::lights
-// has. It needs no other file and has no bindings; the vertex and
-// the fragment stages share it. Each function and each constant here has a twin of the same name in
-// halfway_lighting::equations, written apart; a test calls each function on the adapter and compares it with its twin.
+// The equations in eye space, linear RGB, without the functions of the kinds of light, which are in
+// halfway_lighting::lights. It needs no other file and has no bindings; the vertex and the fragment stages share it.
+// Each function and each constant here has a twin of the same name in halfway_lighting::equations, written apart; a
+// test calls each function on the adapter and compares it with its twin.
 
 // The switches of a pipeline. The equations with a switch off are those of draws that need no more.
 override BLINN_PHONG: bool = true;          // else Phong
@@ -13,7 +13,7 @@ override RANGED: bool = true;               // some light has a range
 override SQUARINGS: i32 = -1;               // the shininess is 2^SQUARINGS; -1: read it and take a power
 override LEAN: bool = false;                // highlights have two axes: those of `axial`
 
-// Which of a light's terms are shaded; the others are shaded in the other stage, or cannot be seen. Ambient goes with
+// The terms of a light that are shaded; the others are shaded in the other stage, or are invisible. Ambient goes with
 // diffuse.
 struct Terms {
     diffuse: bool,
@@ -124,7 +124,7 @@ fn spot_factor(cosine: f32, light: Light) -> f32 {
     return select(0.0, falloff, cos_phi >= light.cos_cutoff);
 }
 
-// The way of a point light's light, or of a spot's when `cone` is set, to a point.
+// The direction and strength of a point light, or of a spot light when `cone` is set, at a point.
 fn incidence(light: Light, cone: bool, p: vec3f, n: vec3f) -> Incidence {
     let to_light = light.position - p;
     let squared = dot(to_light, to_light);

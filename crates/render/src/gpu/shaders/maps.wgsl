@@ -1,6 +1,6 @@
 // Images at a fragment, and what they do to its normal. Needs mesh.wgsl.
 
-// Of each kind in halfway_texture how its image is looked up, as MapLook::bits has it; NO_MAP where there is none.
+// The lookup of the image of each kind in halfway_texture, as MapLook::bits has it; NO_MAP if there is none.
 const NO_MAP: u32 = 65535;
 override COLOR_MAP: u32 = 65535;
 override SPECULAR_MAP: u32 = 65535;
@@ -11,15 +11,15 @@ override OCCLUSION_MAP: u32 = 65535;
 override NORMAL_MAP: u32 = 65535;
 override HEIGHT_MAP: u32 = 65535;
 override TOKSVIG: bool = false;        // highlights take how long the mean of the normals of an image is
-// LEAN, of lighting.wgsl: highlights take how far the slopes of an image's normals lie apart. NORMAL_MAP then looks up
-// two images: the slopes in place of the normals, and in place of the heights their products.
+// LEAN, of lighting.wgsl: highlights take the spread of the slopes of an image's normals. NORMAL_MAP then looks up two
+// images: the slopes in place of the normals, and in place of the heights their products.
 override MASKED: bool = false;         // what has an opacity below the cutoff is not there
 override TANGENT_SIGN: f32 = 1;        // -1 where the surface is lit inside out
 override BITANGENT_SIGN: f32 = 1;      // -1 where fronts wind clockwise
 
-// Where the mesh's coordinates lie on an image, and where its levels are. All of them lie in one texture without
-// levels, one after the other, in rows as wide as the texture: software adapters load from one level for four pixels at
-// once.
+// The transform from the mesh's coordinates to an image's, and the positions of its levels. All of them lie in one
+// texture without levels, one after the other, in rows as wide as the texture: software adapters load from one level
+// for four pixels at once.
 struct Placing {
     row0: vec4f,                    // w: how much the image counts
     row1: vec4f,
@@ -168,7 +168,7 @@ fn at_level(image: texture_2d<f32>, slot: u32, look: u32, uv: vec2f, d: f32) -> 
     return mix(a, in_level(image, slot, wrap, uv, u32(finer) + 1u, minify), level - finer);
 }
 
-// How a number changes along u and v: the difference half a texel of the level to either side.
+// The derivatives of a number along u and v: the difference half a texel of the level to either side.
 fn gradient(image: texture_2d<f32>, slot: u32, look: u32, uv: vec2f, d: f32) -> vec2f {
     var texel = 1.0;
     if levels_of(look) != 0u && d > 0.0 {
@@ -184,7 +184,7 @@ fn gradient(image: texture_2d<f32>, slot: u32, look: u32, uv: vec2f, d: f32) -> 
 
 // ---- where a fragment lies -----------------------------------------------------------------------
 
-// Both sets of coordinates, and how they change from a pixel to the next, along x and along y.
+// Both sets of coordinates, and their differences from a pixel to the next, along x and along y.
 struct Coordinates {
     uv: vec4f,
     dx: vec4f,
@@ -204,12 +204,12 @@ fn of_set(look: u32, both: vec4f) -> vec2f {
     return select(both.xy, both.zw, takes_second(look));
 }
 
-// A way on the mesh's coordinates as a way on an image's.
+// A difference of the mesh's coordinates as one of an image's.
 fn way_on(slot: u32, way: vec2f) -> vec2f {
     return vec2f(dot(placings.each[slot].row0.xy, way), dot(placings.each[slot].row1.xy, way));
 }
 
-// Numbers beyond the range are taken for 0.
+// Numbers outside the range count as 0.
 fn place_on(slot: u32, look: u32, c: Coordinates) -> vec2f {
     let at = way_on(slot, of_set(look, c.uv)) + vec2f(placings.each[slot].row0.z, placings.each[slot].row1.z);
     return select(vec2f(), at, abs(at) <= vec2f(3.4e38));

@@ -76,7 +76,7 @@ fn fragment_terms(p: vec3f, n: vec3f, material: Material, record: u32) -> Irradi
     return add_lists(p, n, material, record, terms);
 }
 
-// As the target takes it.
+// In the format of the target.
 fn written(color: vec3f) -> vec3f {
     if ENCODED {
         return srgb_encoded(clamp(color, vec3f(0.0), vec3f(1.0)));
@@ -91,7 +91,7 @@ fn interpolated(color: vec3f) -> vec3f {
 }
 
 // The interpolated normal, renormalised. Only meshes with opposite vertex normals pay for the fallback, the geometric
-// normal of the side seen as front.
+// normal of the visible side.
 fn fragment_normal(p: vec3f, n: vec3f, front: bool) -> vec3f {
     if GEOMETRIC_FALLBACK {
         let face = normalize_or_zero(cross(dpdx(p), dpdy(p)));

@@ -1,4 +1,4 @@
-//! The WGSL texts, and what they read.
+//! The WGSL texts, and the records that they read.
 
 pub(crate) mod picture;
 pub(crate) mod records;

@@ -1,9 +1,9 @@
-//! The shader text of passes over the finished picture, and what they read.
+//! The shader text of passes over the finished picture, and the record that it reads.
 
 use bytemuck::{Pod, Zeroable};
 use halfway_lighting::Intensity;
 
-/// The files that the text is put together of, end to end; the first for the curve of bytes.
+/// The files of the text, concatenated; the first for the sRGB curve.
 pub(crate) const PICTURE_FILES: [&str; 3] =
     [include_str!("lighting.wgsl"), include_str!("tone.wgsl"), include_str!("picture.wgsl")];
 

@@ -23,12 +23,12 @@ fn whole(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(4.0 * corner - 1.0, 0.0, 1.0);
 }
 
-// Texels a side of which one is made.
+// The side in texels of the block that becomes one texel.
 const BLOCK: u32 = 8;
-// The largest number: what is beyond is taken for it.
+// The largest number: larger values are clamped to it.
 const MOST: f32 = 3.4028234e38;
 
-// The largest channel of a block; what is no number counts as 0.
+// The largest channel of a block; NaN counts as 0.
 fn largest_of_block(at: vec2u) -> f32 {
     let size = textureDimensions(drawn);
     let first = at * BLOCK;

@@ -9,10 +9,10 @@ use halfway_texture::SolidTexture;
 
 pub(crate) const INSTANCE_BYTES: u64 = size_of::<InstanceRecord>() as u64;
 
-/// The parts of an instance, by their locations in the texts.
+/// The vertex attributes of an instance, by their locations in the texts.
 pub(crate) const INSTANCE: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Float32x3, 4 => Float32x3, 5 => Float32x3, 9 => Uint32];
 
-/// The projection as the shader reads it.
+/// The projection in the layout of the shader.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(crate) struct ViewRecord {
@@ -38,7 +38,7 @@ pub(crate) const VIEW_BYTES: u64 = size_of::<ViewRecord>() as u64;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(crate) struct SolidRecord {
     pub(crate) rows: [[f32; 4]; 3],
-    /// The first color, and how many octaves.
+    /// The first color, and the number of octaves.
     pub(crate) first: [f32; 3],
     pub(crate) octaves: u32,
     /// The second color.

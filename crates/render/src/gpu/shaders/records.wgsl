@@ -11,7 +11,7 @@ struct View {
     padding: vec2f,
 }
 
-// Materials and lights. Of these, where their numbers begin among `lists`, and how many.
+// Materials and lights. Of the lights, the first of their numbers in `lists`, and the count.
 struct Surface {
     front: Material,
     back: Material,

@@ -15,7 +15,7 @@ fn hash(cell: vec3u) -> vec3u {
     return v;
 }
 
-// The product of the direction at a corner of a cell with the way from there; f is the way from the cell's first
+// The product of the direction at a corner of a cell with the vector from there; f is the vector from the cell's first
 // corner.
 fn at_corner(cell: vec3u, f: vec3f, offset: vec3u) -> f32 {
     let number = hash(cell + offset).x >> 28u;
@@ -41,26 +41,26 @@ fn gradient_noise(p: vec3f) -> f32 {
     return mix(front, behind, s.z);
 }
 
-// How much is left of noise that is seen by parts so wide.
-fn left(width: f32) -> f32 {
+// The remaining amplitude of noise that is averaged over parts so wide.
+fn fade(width: f32) -> f32 {
     let t = clamp((width - 0.25) * 2.0, 0.0, 1.0);
     return 1.0 - t * t * (3.0 - 2.0 * t);
 }
 
-// Octaves that are gone are not evaluated.
+// Octaves that have faded out are not evaluated.
 fn fractal(p: vec3f, octaves: u32, width: f32) -> f32 {
     let count = min(octaves, MOST_OCTAVES);
     var sum = 0.0;
     var frequency = 1.0;
     var amplitude = 1.0;
     var octave = 0u;
-    var weight = left(abs(width));
+    var weight = fade(abs(width));
     while select(0.0, weight, octave < count) > 0.0 {
         sum += weight * amplitude * gradient_noise(p * frequency + f32(octave) * 0.37);
         octave += 1u;
         frequency *= 2.0;
         amplitude *= 0.5;
-        weight = left(frequency * abs(width));
+        weight = fade(frequency * abs(width));
     }
     return sum;
 }
@@ -74,7 +74,7 @@ fn sine_of_turns(turns: f32) -> f32 {
     return y + y * z * series;
 }
 
-// A wave of which a part so wide is seen.
+// The mean of a wave over a part so wide.
 fn wave(t: f32, width: f32) -> f32 {
     let w = abs(width);
     let mean = sine_of_turns(0.5 * w) / max(3.1415927 * w, 1e-3);
@@ -87,7 +87,7 @@ fn marble(p: vec3f, octaves: u32, width: f32) -> f32 {
 }
 
 fn wood(p: vec3f, width: f32) -> f32 {
-    let grain = 0.3 * left(abs(width)) * gradient_noise(vec3f(p.x, 0.1 * p.y, p.z));
+    let grain = 0.3 * fade(abs(width)) * gradient_noise(vec3f(p.x, 0.1 * p.y, p.z));
     return wave(sqrt(p.x * p.x + p.z * p.z) + grain, width);
 }
 
@@ -112,7 +112,7 @@ fn checker(p: vec3f, widths: vec3f) -> f32 {
     return 0.5 - 0.5 * each.x * each.y * each.z;
 }
 
-// t at a point of a solid that moves by these ways from a pixel to the next; kinds in the order of SolidKind.
+// t at a point of a solid, with the point's differences to the next pixels; kinds in the order of SolidKind.
 fn solid_value(kind: u32, octaves: u32, q: vec3f, x: vec3f, y: vec3f) -> f32 {
     let width = sqrt(max(dot(x, x), dot(y, y)));
     var t = 0.0;
@@ -125,6 +125,6 @@ fn solid_value(kind: u32, octaves: u32, q: vec3f, x: vec3f, y: vec3f) -> f32 {
     } else {
         t = clamp(0.5 + 0.5 * fractal(q, octaves, width), 0.0, 1.0);
     }
-    // Where numbers end, the mean.
+    // At the end of the number range, the mean.
     return select(0.5, t, abs(t) <= 1.0);
 }

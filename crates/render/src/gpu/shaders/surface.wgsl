@@ -21,9 +21,8 @@ struct Vertex {
 #end
 }
 
-// Of a pixel with four samples of which a triangle covers some, the centre may lie outside the triangle: what is
-// interpolated is taken where the triangle is (centroid), but for what says how large a pixel is. With one sample that
-// is the centre.
+// If a triangle covers some of a pixel's four samples, the centre may lie outside the triangle: values are interpolated
+// inside it (centroid), except those that measure the size of a pixel. With one sample that is the centre.
 struct Varyings {
     @invariant @builtin(position) clip: vec4f,
     @location(0) @interpolate(flat, either) record: u32,
@@ -106,7 +105,7 @@ struct Parts {
     specular: vec3f,
 }
 
-// The color multiplies what is not a highlight.
+// The color multiplies everything but highlights.
 fn parts(arriving: Irradiance, material: Material, color: vec3f) -> Parts {
     var ambient = vec3f();
     if ATTENUATED_AMBIENT {
@@ -155,8 +154,8 @@ fn vs_surface(object: Object, vertex: Vertex) -> Varyings {
 #if FLAT
     p = eye_position(object, vertex.centroid);
 #if TWO_SIDED
-    // Of one side the rasteriser shows what winds as the front does. It snaps vertices to a grid, so that of a triangle
-    // seen edge-on, or smaller than the grid, it may find another side than n·p does.
+    // Of a one-sided surface the rasteriser shows the triangles that wind as the front does. It snaps vertices to a
+    // grid, so that of a triangle seen edge-on, or smaller than the grid, it may find another side than n·p does.
     front = dot(n, sight(p)) <= 0.0;
     n = select(-n, n, front);
     out.is_front = u32(front);
@@ -217,7 +216,7 @@ fn vs_surface(object: Object, vertex: Vertex) -> Varyings {
 }
 
 #if VERTEX
-// The interpolated terms of the side that is seen.
+// The interpolated terms of the visible side.
 fn parts_of_vertices(in: Varyings, front: bool) -> Parts {
     var sums: Parts;
 #if MAPPED
@@ -262,7 +261,7 @@ fn eye_direction(object: Object, direction: vec3f) -> vec3f {
     return vec3f(dot(object.row0.xyz, direction), dot(object.row1.xyz, direction), dot(object.row2.xyz, direction));
 }
 
-// Of a fragment whose normal is n without images.
+// The same for a fragment whose normal is n without images.
 fn relief(in: Varyings, c: Coordinates, n: vec3f) -> Relief {
     let amount = placings.each[6].row0.w;
     // A mirrored direction turns twice as far.
@@ -303,12 +302,12 @@ struct SolidData {
 
 @group(1) @binding(9) var<uniform> solid: SolidData;
 
-// A point where w is 1, or a way where it is 0, in the solid's space.
+// A point if w is 1, or a vector if it is 0, in the solid's space.
 fn in_solid(v: vec4f) -> vec3f {
     return vec3f(dot(solid.rows[0], v), dot(solid.rows[1], v), dot(solid.rows[2], v));
 }
 
-// The factor of the solid for the ambient and the diffuse part; c is where the fragment lies in the object's space.
+// The factor of the solid for the ambient and the diffuse part; c is the fragment's position in the object's space.
 fn solid_color(c: Coordinates) -> vec3f {
     let x = in_solid(vec4f(c.dx.xyz, 0.0));
     let y = in_solid(vec4f(c.dy.xyz, 0.0));
@@ -318,7 +317,7 @@ fn solid_color(c: Coordinates) -> vec3f {
 #end
 
 #if MAPPED
-// I and the opacity, as images leave them.
+// I and the opacity, after images.
 fn with_images(sums: Parts, emission: vec3f, opacity: f32, c: Coordinates) -> vec4f {
     var ambient = sums.ambient;
     if OCCLUSION_MAP != NO_MAP {
@@ -385,7 +384,7 @@ fn fs_surface(
     let c = coordinates(in.uv, in.at, -in.middle.w);
 #end
 #if NORMALS_AT_FRAGMENTS
-    // The exponent of highlights, and what they are multiplied by.
+    // The exponent of highlights, and their factor.
     var lobe = vec2f(material.shininess, 1.0);
 #if MAPPED
     if SHININESS_MAP != NO_MAP {
@@ -422,8 +421,8 @@ fn fs_surface(
     );
 #end
 #if SURROUNDED
-    // The way to the viewer is that of the point that is shaded, which lies in the triangle also where it covers a part
-    // of a pixel of four samples.
+    // The direction to the viewer is that of the shaded point, which lies in the triangle even if that covers a part of
+    // a pixel of four samples.
     let around = surroundings_of(n, view_vector(in.p, n), lobe_exponent(BLINN_PHONG, lobe.x));
     sums.ambient += color.rgb * material.diffuse * around.mean;
     sums.specular += material.specular * around.seen;

@@ -1,17 +1,17 @@
 //! The switches of a shader text: constants of WGSL, and conditions of its lines. The test of the twins of the surface's
 //! functions is a user of this file too, so it needs no other.
 
-/// Puts a text together of files, end to end, in which each switch is a constant. The lines between `#if NAME` and
-/// `#end`, or `#else`, are in it where the switch is on; `#if !NAME` where it is off. Conditions may nest.
+/// Concatenates files to a text in which each switch is a constant. The lines between `#if NAME` and `#end`, or
+/// `#else`, are in it where the switch is on; `#if !NAME` where it is off. Conditions may nest.
 ///
 /// # Panics
-/// A condition is of no switch, or is not closed. The texts are the project's own, and tests put all of them together.
+/// A condition names no switch, or is not closed. The texts are the project's own, and tests assemble all of them.
 pub(crate) fn assembled(files: &[&str], switches: &[(&str, bool)]) -> String {
     let mut text = String::new();
     for (name, on) in switches {
         text.extend(["const ", name, ": bool = ", if *on { "true" } else { "false" }, ";\n"]);
     }
-    // Of each open condition whether the lines are taken.
+    // Whether the lines of each open condition are included.
     let mut open = Vec::new();
     for line in files.iter().flat_map(|file| file.lines()) {
         if let Some(name) = line.strip_prefix("#if ") {

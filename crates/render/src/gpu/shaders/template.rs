@@ -1,4 +1,4 @@
-//! A text of which each pipeline gets what it uses.
+//! Shader templates: each pipeline gets the part of a text that it uses.
 
 use std::borrow::Cow;
 use wgpu::naga::back::pipeline_constants::process_overrides;
@@ -8,8 +8,8 @@ use wgpu::naga::{self, Arena, Block, Constant, Expression, Handle, Literal, Modu
 
 /// A text, read once.
 ///
-/// A driver would drop by itself what a pipeline's constants rule out, but not before it has put the body of each
-/// function in the place of each call: of a draw with one image that are the filters of all eight kinds.
+/// A driver would remove by itself the code that a pipeline's constants rule out, but only after inlining every
+/// function call: for a draw with one image that includes the filters of all eight kinds.
 pub(crate) struct Template {
     module: Module,
     info: ModuleInfo,
@@ -32,7 +32,7 @@ impl Template {
         Self { module, info }
     }
 
-    /// The shader of one entry point alone, without what its constants rule out.
+    /// The shader of one entry point alone, without code that its constants rule out.
     pub(crate) fn shader(&self, gpu: &wgpu::Device, of: EntryPoint) -> wgpu::ShaderModule {
         gpu.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(of.name),
@@ -40,7 +40,7 @@ impl Template {
         })
     }
 
-    /// The same before it is the device's.
+    /// The same as a module of naga.
     pub(crate) fn module_of(&self, EntryPoint { stage, name, constants }: EntryPoint) -> Module {
         let constants = constants.iter().map(|&(name, value)| (name.to_owned(), value)).collect();
         let fixed = process_overrides(&self.module, &self.info, Some((stage, name)), &constants);
@@ -51,14 +51,14 @@ impl Template {
     }
 }
 
-/// Empties the branches that are never taken, by conditions that are known, and drops what nothing reaches any more.
+/// Empties branches that known conditions rule out, and drops unreachable functions.
 fn leave_out_what_is_never(module: &mut Module) {
     let Module { functions, entry_points, constants, global_expressions, .. } = module;
     let all = functions.iter_mut().map(|(_, function)| function);
     for function in all.chain(entry_points.iter_mut().map(|entry| &mut entry.function)) {
         let known = Known { expressions: &function.expressions, constants, global_expressions };
         known.empty_branches(&mut function.body);
-        // A name would keep what was called in an emptied branch.
+        // A name would keep functions that were called in an emptied branch.
         function.named_expressions.clear();
     }
     compact(module, KeepUnused::No);

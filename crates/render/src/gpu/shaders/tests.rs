@@ -1,4 +1,4 @@
-//! The texts are valid file by file, and the records lie as the texts read them.
+//! The texts are valid file by file, and the records have the layouts of the texts.
 
 use crate::gpu::draw::placings::{PlacingRecord, PlacingsRecord};
 use crate::gpu::draw::surroundings::SurroundingsRecord;
@@ -16,7 +16,7 @@ use std::mem::offset_of;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 use wgpu::naga::{self, Binding, TypeInner};
 
-/// Of a material alone, whose terms are shaded at the fragments.
+/// A material without images, whose terms are shaded at the fragments.
 const PLAIN: Text = Text {
     lights: LightText::Few,
     terms: Terms::both(Frequency::Fragment),
@@ -31,7 +31,7 @@ const PLAIN: Text = Text {
 
 const MAPPED: Text = Text { painted: true, mapped: true, ..PLAIN };
 
-/// Every combination of switches that draws have.
+/// Every combination of switches that draws use.
 fn texts() -> impl Iterator<Item = Text> {
     let (vertex, fragment) = (Frequency::Vertex, Frequency::Fragment);
     let terms = [
@@ -105,7 +105,7 @@ fn opengl_gets_texts_without_the_first_vertex() {
 }
 
 #[test]
-fn what_no_tool_can_read_is_found() {
+fn a_text_that_naga_rejects_is_found() {
     let lighting = PLAIN.files()[0];
     for (right, wrong) in [("1e6;", "ATTENUATION;"), ("return w * w;", "LOOPS"), ("fn power(", "fn powers(")] {
         assert!(valid(&lighting.replacen(right, wrong, 1)).is_err(), "{wrong} for {right} passes");
@@ -116,7 +116,7 @@ fn what_no_tool_can_read_is_found() {
 /// the next, so that it is taken at their centres.
 const AT_CENTERS: [&str; 3] = ["at", "at_center", "middle"];
 
-/// The varyings of a text's stages that are not as they should be, and how many are right.
+/// The wrongly interpolated varyings of a text's stages, and the number of right ones.
 fn badly_interpolated(module: &naga::Module) -> (Vec<String>, usize) {
     use naga::{Interpolation, Sampling, ShaderStage};
     let (mut wrong, mut right) = (Vec::new(), 0);
@@ -147,13 +147,13 @@ fn badly_interpolated(module: &naga::Module) -> (Vec<String>, usize) {
     (wrong, right)
 }
 
-/// Of a pixel with four samples of which a triangle covers some, the centre may lie outside the triangle.
+/// If a triangle covers some of a pixel's four samples, the centre may lie outside the triangle.
 #[test]
-fn what_is_interpolated_is_taken_where_the_triangle_is() {
+fn varyings_are_sampled_at_the_centroid() {
     for text in texts() {
         let (wrong, right) = badly_interpolated(&valid(&text.wgsl()).expect("a valid text"));
         assert_eq!(wrong, [""; 0], "{text:?}");
-        // A fragment takes all that a vertex hands on, and there is room for it and for the side it shows.
+        // A fragment reads all outputs of a vertex, and these fit the limit together with the facing.
         assert!(right.is_multiple_of(2) && (2..=30).contains(&right), "{text:?}: {right} varyings");
     }
     let whole = PLAIN.wgsl();
@@ -167,7 +167,7 @@ fn what_is_interpolated_is_taken_where_the_triangle_is() {
 /// Name, offset and size in bytes.
 type Field = (String, usize, usize);
 
-/// The fields of a WGSL struct but for padding, and the struct's size.
+/// The fields of a WGSL struct without padding, and the struct's size.
 fn members(module: &naga::Module, name: &str) -> (Vec<Field>, usize) {
     let structs = module.types.iter().filter(|(_, ty)| ty.name.as_deref() == Some(name));
     let mut found = structs.filter_map(|(_, ty)| match &ty.inner {
@@ -182,7 +182,7 @@ fn members(module: &naga::Module, name: &str) -> (Vec<Field>, usize) {
     (fields.filter(|(name, ..)| !name.starts_with("padding")).collect(), span)
 }
 
-/// The fields of a record, and its size. What is not named is padding.
+/// The fields of a record, and its size. Fields that are not named are padding.
 macro_rules! fields {
     ($record:ty { $($($field:ident).+),+ }) => {{
         let zero = <$record>::zeroed();
@@ -251,7 +251,7 @@ fn records_lie_as_the_texts_read_them() {
 }
 
 #[test]
-fn where_an_image_lies_is_read_as_it_is_written() {
+fn the_placement_of_an_image_has_one_layout() {
     let module = valid(&MAPPED.wgsl()).expect("a valid text");
     assert_eq!(members(&module, "Placing"), fields!(PlacingRecord { row0, row1, levels, level }));
     assert_eq!(members(&module, "Placings"), fields!(PlacingsRecord { cutoff, each }));
@@ -317,7 +317,7 @@ fn a_field_that_moved_is_found() {
     ];
     for (name, right, wrong) in moves {
         assert!(whole.contains(right), "{right} is in the text");
-        // Parsed only: what reads the field that is gone is not what is tried here.
+        // Only the structs are parsed, since code that reads the removed field would not be valid.
         let structs = whole.split("@group").next().unwrap_or_default().replace(right, wrong);
         let structs: String = structs.split_inclusive("\n}\n").filter(|part| part.contains("struct ")).collect();
         let module = naga::front::wgsl::parse_str(&structs).expect("structs alone");
@@ -352,7 +352,7 @@ fn instances_lie_as_the_vertex_stages_read_them() {
 }
 
 #[test]
-fn lights_at_fixed_places_are_as_many_as_are_bound() {
+fn fixed_lights_match_their_bindings() {
     for text in texts().filter(|text| text.lights != LightText::Listed) {
         let module = valid(&text.wgsl()).expect("a valid text");
         let lights = module.global_variables.iter().find(|(_, global)| global.name.as_deref() == Some("lights"));
@@ -362,9 +362,9 @@ fn lights_at_fixed_places_are_as_many_as_are_bound() {
     }
 }
 
-/// A module has the functions for the kinds of images that its draw has, and no others.
+/// A module has functions only for the kinds of images of its draw.
 #[test]
-fn what_constants_rule_out_is_not_in_a_module() {
+fn constants_remove_dead_code_from_modules() {
     let functions = |text: Text, constants: &[(&'static str, f64)]| {
         let template = Template::new(&text.wgsl());
         let fragment = EntryPoint { stage: naga::ShaderStage::Fragment, name: "fs_surface", constants };

@@ -13,7 +13,7 @@ use halfway_lighting::{Frequency, Terms};
 use halfway_texture::MapKind;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// How a text reads records and lights.
+/// The way a text reads records and lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum LightText {
     /// From uniform buffers, up to [`COUNTED_LIGHTS`].
@@ -22,22 +22,22 @@ pub(crate) enum LightText {
     Listed,
 }
 
-/// The inputs and outputs of the stages of a surface: each combination is a text, of which nothing else is in a pipeline.
+/// The features of a surface's shader: each combination is a text of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(clippy::struct_excessive_bools, reason = "each is one independent switch of the text")]
 pub(crate) struct Text {
     pub(crate) lights: LightText,
-    /// Where each term is shaded.
+    /// The frequency of each term.
     pub(crate) terms: Terms,
-    /// Backs are seen too.
+    /// Both sides are drawn.
     pub(crate) two_sided: bool,
     /// The vertices have colors, white where the mesh has none.
     pub(crate) painted: bool,
     /// There may be images, and a mask.
     pub(crate) mapped: bool,
-    /// Some filter of images goes by the footprint's shape.
+    /// Some filter of images uses the footprint's shape.
     pub(crate) by_shape: bool,
-    /// An image turns the normals of fragments.
+    /// An image perturbs the normals of fragments.
     pub(crate) relief: bool,
     /// The object is cut from a solid.
     pub(crate) solid: bool,
@@ -64,7 +64,7 @@ impl Text {
             ("NORMALS", self.reads_normals()),
             ("NORMALS_AT_FRAGMENTS", fragment || surrounded),
             ("TWO_SIDED", two_sided),
-            // The rasteriser tells each fragment which side it is of.
+            // The rasteriser gives each fragment its side.
             ("FACING", two_sided && !flat),
             ("PAINTED", painted),
             ("MAPPED", mapped),
@@ -74,7 +74,7 @@ impl Text {
         ]
     }
 
-    /// Whether a triangle has one shade.
+    /// Whether a triangle has one colour.
     pub(crate) fn is_flat(self) -> bool {
         self.terms.has(Frequency::Triangle)
     }
@@ -84,8 +84,8 @@ impl Text {
         self.terms != Terms::NONE || self.surrounded
     }
 
-    /// The files that it is put together of, end to end. Each needs only those before it, so that it is valid WGSL with
-    /// them; `lighting.wgsl` needs none.
+    /// The files of the text, concatenated. Each needs only those before it, with which it is valid WGSL;
+    /// `lighting.wgsl` needs none.
     pub(crate) fn files(self) -> Vec<&'static str> {
         let mut files = vec![LIGHTING, lights::wgsl(), include_str!("records.wgsl")];
         files.push(match self.lights {
@@ -122,20 +122,20 @@ pub(crate) const SKY: [&str; 4] = [LIGHTING, ENVIRONMENT, SURROUNDINGS, include_
 /// The bytes of lights at fixed places.
 pub(crate) const COUNTED_LIGHT_BYTES: u64 = COUNTED_LIGHTS as u64 * size_of::<LightRecord>() as u64;
 
-/// A text, and the layout of what it reads.
+/// A text, and the layout of its bindings.
 pub(crate) struct Shader {
     pub(crate) template: Template,
     pub(crate) layout: wgpu::PipelineLayout,
 }
 
-/// The texts, each made when a pipeline first needs it, on whichever thread that is.
+/// The texts, each compiled when a pipeline first needs it, on any thread.
 #[derive(Default)]
 pub(crate) struct Shaders {
     pub(crate) layouts: Layouts,
     texts: Mutex<HashMap<Text, Arc<OnceLock<Shader>>>>,
 }
 
-/// The layouts of what draws bind, each made when a text first needs it: a device may lack what another takes.
+/// The layouts of bindings, each made when a text first needs it, since a device may not support all of them.
 #[derive(Default)]
 pub(crate) struct Layouts {
     few: OnceLock<wgpu::BindGroupLayout>,
@@ -149,7 +149,7 @@ impl Shaders {
     pub(crate) fn with<T>(&self, gpu: &Gpu, text: Text, call: impl FnOnce(&Shader) -> T) -> T {
         let mut texts = self.texts.lock().unwrap_or_else(PoisonError::into_inner);
         let shader = Arc::clone(texts.entry(text).or_default());
-        // Others are made meanwhile.
+        // Other threads may compile texts meanwhile.
         drop(texts);
         call(shader.get_or_init(|| Shader::new(gpu, &self.layouts, text)))
     }
@@ -173,7 +173,7 @@ impl Shader {
 }
 
 impl Layouts {
-    /// That of records and lights.
+    /// The layout of records and lights.
     pub(crate) fn of_lights(&self, lights: LightText) -> &OnceLock<wgpu::BindGroupLayout> {
         match lights {
             LightText::Few => &self.few,
@@ -181,13 +181,13 @@ impl Layouts {
         }
     }
 
-    /// That of images, and of a solid where there is one.
+    /// The layout of images, with a solid if there is one.
     pub(crate) fn of_images(&self, has_solid: bool) -> &OnceLock<wgpu::BindGroupLayout> {
         if has_solid { &self.images_and_solid } else { &self.images }
     }
 }
 
-/// Those of the view, records and lights.
+/// The bindings of the view, records and lights.
 fn draw_bindings(gpu: &Gpu, lights: LightText) -> wgpu::BindGroupLayout {
     let entry = |binding, ty, size| wgpu::BindGroupLayoutEntry {
         binding,
@@ -212,7 +212,7 @@ fn draw_bindings(gpu: &Gpu, lights: LightText) -> wgpu::BindGroupLayout {
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("draw"), entries: &entries })
 }
 
-/// Where a solid is bound, behind the images.
+/// The binding of a solid, after the images.
 pub(crate) const SOLID_BINDING: u32 = MapKind::COUNT as u32 + 1;
 
 fn image_bindings(gpu: &Gpu, has_solid: bool) -> wgpu::BindGroupLayout {
@@ -222,7 +222,7 @@ fn image_bindings(gpu: &Gpu, has_solid: bool) -> wgpu::BindGroupLayout {
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("maps"), entries: &entries })
 }
 
-/// Those of the environment: how it is looked up, and its texels.
+/// The bindings of the environment: its parameters and its texels.
 pub(crate) fn surroundings_bindings(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let entries = [uniform_of_fragments(0), image_binding(1)];
     let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("surroundings"), entries: &entries };
@@ -234,7 +234,7 @@ fn image_binding(binding: u32) -> wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::FRAGMENT,
         ty: wgpu::BindingType::Texture {
-            // The filters are the shader's, so that they are the same everywhere.
+            // The shader filters, so that results are the same everywhere.
             sample_type: wgpu::TextureSampleType::Float { filterable: false },
             view_dimension: wgpu::TextureViewDimension::D2,
             multisampled: false,

@@ -1,7 +1,7 @@
 // Policies for a finished picture whose intensities exceed 1. Each function has a twin of the same name in
 // `halfway_lighting::equations`.
 
-// Where `aces` has long reached 1: it does so at 7.25. More would overflow its squares.
+// The largest argument of `aces`, which reaches 1 at 7.25. More would overflow its squares.
 const ACES_WHITE: f32 = 8.0;
 
 // The divisor of a picture whose largest channel is `largest`.

@@ -1,4 +1,4 @@
-//! Which pipelines are there, and what waits for them.
+//! The contents of the pipeline cache, and the frames that wait for it.
 
 use super::*;
 use halfway_lighting::record::Cull;
@@ -7,7 +7,7 @@ fn numbered(number: u16) -> DrawKey {
     DrawKey { squarings: Some(number as u8), clockwise: number > 255, ..DrawKey::plain() }
 }
 
-/// A frame that draws these: how many by their own pipelines, which it waited for, and its report.
+/// Draws a frame: returns the number of draws by their own pipelines, the awaited pipelines, and the report.
 fn frame(
     pipelines: &mut Pipelines,
     gpu: &Gpu,
@@ -17,7 +17,7 @@ fn frame(
     frame_into(ShaderOutput::default(), pipelines, gpu, compile, keys)
 }
 
-/// The same, drawn into something else.
+/// The same with another output.
 fn frame_into(
     output: ShaderOutput,
     pipelines: &mut Pipelines,
@@ -41,7 +41,7 @@ fn no_special_one_is_awaited_after_the_first_frame() {
     let mut pipelines = Pipelines::default();
     let (own, awaited, _) = frame(&mut pipelines, &gpu, Compile::Beside, &[DrawKey::plain()]);
     assert_eq!((own, awaited), (1, vec![DrawKey::plain()]));
-    // At once, so that the generic one is not there either.
+    // At once, so that the generic one is not built either.
     let other = numbered(3);
     let (own, awaited, report) = frame(&mut pipelines, &gpu, Compile::Beside, &[DrawKey::plain(), other]);
     assert_eq!((own, awaited, report.pipelines_awaited), (1, vec![other.generic()], 1));
@@ -56,7 +56,7 @@ fn no_special_one_is_awaited_after_the_first_frame() {
 }
 
 #[test]
-fn what_cannot_be_built_is_reported_and_not_tried_again() {
+fn a_failed_pipeline_is_reported_and_not_retried() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     // No adapter takes three samples a pixel.
@@ -69,7 +69,7 @@ fn what_cannot_be_built_is_reported_and_not_tried_again() {
         assert!(matches!(&report.errors[..], [RenderError::Device(_)]), "{:?}", report.errors);
         assert_eq!((by_own, report.pipelines_awaited, report.pipelines_live), (own, awaited, 1));
     }
-    // Beside the frames: the specialised one once, the generic one, which is to draw in its place, in every frame.
+    // In the background: the specialised one fails once, the generic one, which should replace it, in every frame.
     let other = DrawKey { squarings: Some(2), ..DrawKey::plain() };
     let mut errors = 0;
     loop {
@@ -103,7 +103,7 @@ fn the_generic_one_draws_where_the_special_one_cannot_be_built() {
     }
 }
 
-/// A frame under `Compile::Beside` that draws nothing, as often as it takes until nothing is on its way.
+/// Draws empty frames under `Compile::Beside` until no pipeline is pending.
 fn settle(pipelines: &mut Pipelines, gpu: &Gpu) -> FrameReport {
     loop {
         let (.., report) = frame(pipelines, gpu, Compile::Beside, &[]);
@@ -124,11 +124,11 @@ fn a_build_that_panics_fails_alone() {
         assert!(wanted.draw != numbered(3), "as a driver may");
         build(&shared, &shaders, wanted)
     };
-    pipelines.background = Background::Running(Builder::of(build).unwrap());
-    // Both are asked for; the generic one draws in the place of the one that panics, from then on.
+    pipelines.background = Background::Running(Builder::with_build(build).unwrap());
+    // Both are requested; from then on the generic one replaces the one that panics.
     let (.., report) = frame(&mut pipelines, &gpu, Compile::Beside, &[numbered(3), numbered(4)]);
     let mut errors = report.errors;
-    // The frame that takes in the panic may be one in which the other is still on its way.
+    // When the panic is collected, the other may still be pending.
     loop {
         let (.., report) = frame(&mut pipelines, &gpu, Compile::Beside, &[]);
         errors.extend(report.errors);
@@ -156,7 +156,7 @@ fn frames_build_for_themselves_where_there_is_no_thread() {
 }
 
 #[test]
-fn both_passes_get_room_in_the_same_frame() {
+fn both_passes_fit_in_the_cache_in_one_frame() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     let mut draw = |keys: &[DrawKey]| {
@@ -175,7 +175,7 @@ fn both_passes_get_room_in_the_same_frame() {
 }
 
 #[test]
-fn the_one_unused_for_longest_makes_room() {
+fn the_least_recently_used_pipeline_is_evicted() {
     let gpu = Gpu::open_headless().unwrap();
     let mut pipelines = Pipelines::default();
     let mut draws = |keys: &[u16]| {
@@ -184,7 +184,7 @@ fn the_one_unused_for_longest_makes_room() {
     };
     let all: Vec<u16> = (0..MOST_SPECIAL as u16).collect();
     assert_eq!(draws(&all), MOST_SPECIAL);
-    // All but two are used on; one of the two in one frame more.
+    // All but two are used further; one of the two in one more frame.
     assert_eq!(draws(&all[1..]), MOST_SPECIAL - 1);
     for _ in 2..=KEPT_FRAMES {
         assert_eq!(draws(&all[2..]), MOST_SPECIAL - 2);
@@ -192,7 +192,7 @@ fn the_one_unused_for_longest_makes_room() {
     }
     assert_eq!(draws(&[200, 201, 202]), 0, "in the first frame nothing is given up for them");
     assert_eq!(draws(&[200, 201, 202]), 2);
-    // 0 and 1 have been given up, and nothing else that was used lately.
+    // 0 and 1 were evicted, and nothing else that was used recently.
     assert_eq!(draws(&[0, 1]), 0);
     assert_eq!(draws(&[0, 1]), 0);
     assert_eq!(draws(&all[2..]), MOST_SPECIAL - 2);

@@ -1,4 +1,4 @@
-//! From the entities of a world to a scene in eye space.
+//! Reads the entities of a world into a scene in eye space.
 
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemState;
@@ -14,13 +14,13 @@ use halfway_lighting::{
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{Maps, Pyramid, SolidTexture, SurfaceMap, Texture};
 
+use super::environment::OracleEnvironment;
 use super::error::{ALWAYS, OracleError, label};
-use super::maps::ReadMap;
-use super::solid::{Color, Looks, Solid};
-use super::surroundings::OracleSurroundings;
+use super::maps::MapSource;
+use super::solid::{Appearance, Color, Solid};
 use super::view::{PictureView, affine};
 
-/// What is drawn, in eye space.
+/// The objects, lights and environment of a scene, in eye space.
 #[derive(Clone, Debug)]
 pub(super) struct OracleScene {
     pub(super) view: PictureView,
@@ -31,33 +31,33 @@ pub(super) struct OracleScene {
     /// Ga, and La of the lights that do not attenuate it.
     pub(super) ambient: Color,
     pub(super) lights: Vec<Light<f64>>,
-    pub(super) surroundings: Option<OracleSurroundings>,
+    pub(super) environment: Option<OracleEnvironment>,
     /// From the nearest to the farthest object between the near and the far plane.
     pub(super) depth_span: f64,
-    /// In the order in which they are drawn: opaque ones as they were spawned, then blended ones, the farthest first.
+    /// In drawing order: opaque ones in spawn order, then blended ones, the farthest first.
     pub(super) solids: Vec<Solid>,
 }
 
 impl OracleScene {
-    pub(super) fn gather(world: &mut World, size: UVec2) -> Result<Self, OracleError> {
+    pub(super) fn from_world(world: &mut World, size: UVec2) -> Result<Self, OracleError> {
         require_propagation(world)?;
-        let seen = see(world, size)?;
-        let (ambient, lights) = lights(world, &seen.view)?;
-        let surroundings = OracleSurroundings::gather(world, &seen.view)?;
-        let solids = solids(world, &seen)?;
-        let depth_span = depth_span(&seen.view, &solids);
-        let viewer = seen.camera.eye();
-        let Camera { background, samples, intensity, .. } = seen.camera;
+        let defaults = view_defaults(world, size)?;
+        let (ambient, lights) = lights(world, &defaults.view)?;
+        let environment = OracleEnvironment::from_world(world, &defaults.view)?;
+        let solids = solids(world, &defaults)?;
+        let depth_span = depth_span(&defaults.view, &solids);
+        let viewer = defaults.camera.eye();
+        let Camera { background, samples, intensity, .. } = defaults.camera;
         let background = rgb(background);
         Ok(Self {
-            view: seen.view,
+            view: defaults.view,
             viewer,
             background,
             samples,
             intensity,
             ambient,
             lights,
-            surroundings,
+            environment,
             depth_span,
             solids,
         })
@@ -83,7 +83,7 @@ fn require_propagation(world: &mut World) -> Result<(), OracleError> {
     }
 }
 
-/// The camera, and what it says of objects that say nothing themselves.
+/// The camera, and its defaults for objects without components of their own.
 struct ViewDefaults {
     camera: Camera,
     view: PictureView,
@@ -91,7 +91,7 @@ struct ViewDefaults {
     reflectance: Reflectance,
 }
 
-fn see(world: &mut World, size: UVec2) -> Result<ViewDefaults, OracleError> {
+fn view_defaults(world: &mut World, size: UVec2) -> Result<ViewDefaults, OracleError> {
     let mut query =
         world.query::<(Entity, &Camera, &GlobalTransform, Option<&Shading>, Option<&Reflectance>, Option<&Name>)>();
     let mut cameras = query.iter(world);
@@ -133,7 +133,7 @@ struct InEyeSpace<'a> {
     at: &'a GlobalTransform,
 }
 
-/// Each checks in f32 whether there is such a place or axis; the axis itself is taken in f64.
+/// Each checks in f32 whether the position or axis exists; the axis itself is computed in f64.
 impl LightFrame for InEyeSpace<'_> {
     fn position(&self) -> Result<[f64; 3], InvalidValue> {
         light_position(self.at).map(|p| self.view.eye_from_point(p.as_dvec3()).to_array())
@@ -164,7 +164,7 @@ type Object<'a> = (
     (Option<&'a Maps>, Option<&'a SolidTexture>),
 );
 
-fn solids(world: &mut World, seen: &ViewDefaults) -> Result<Vec<Solid>, OracleError> {
+fn solids(world: &mut World, defaults: &ViewDefaults) -> Result<Vec<Solid>, OracleError> {
     let mut query = world.query::<Object>();
     let mut shown = SystemState::<Shown>::new(world);
     let shown = shown.get(world).expect(ALWAYS);
@@ -172,10 +172,10 @@ fn solids(world: &mut World, seen: &ViewDefaults) -> Result<Vec<Solid>, OracleEr
     let meshes = (world.get_resource::<Assets<Mesh>>(), world.get_resource::<Assets<Texture>>());
     let mut objects: Vec<_> = query.iter(world).filter(|(entity, ..)| is_shown(*entity)).collect();
     objects.sort_unstable_by_key(|(entity, _, _, order, ..)| (**order, *entity));
-    let solids = objects.into_iter().map(|object| solid(object, meshes, seen));
+    let solids = objects.into_iter().map(|object| solid(object, meshes, defaults));
     let (mut blended, mut solids): (Vec<_>, Vec<_>) =
         solids.collect::<Result<Vec<_>, _>>()?.into_iter().partition(|solid| solid.blend);
-    // Stable: at equal depth what was spawned first is drawn first.
+    // Stable: at equal depth the first spawned is drawn first.
     blended.sort_by(|a, b| b.centre_depth().total_cmp(&a.centre_depth()));
     solids.extend(blended);
     Ok(solids)
@@ -198,7 +198,7 @@ fn solid(
         (maps, cut_from),
     ): Object,
     (meshes, textures): (Option<&Assets<Mesh>>, Option<&Assets<Texture>>),
-    seen: &ViewDefaults,
+    defaults: &ViewDefaults,
 ) -> Result<Solid, OracleError> {
     let mesh = meshes.and_then(|meshes| meshes.get(&mesh.0));
     let mesh = mesh.ok_or_else(|| OracleError::MissingMesh { entity: label(entity, name) })?;
@@ -207,7 +207,7 @@ fn solid(
         return Err(bad_transform(entity, name, transform));
     }
     let front = material.copied().unwrap_or_default();
-    let shading = shading.copied().unwrap_or(seen.shading);
+    let shading = shading.copied().unwrap_or(defaults.shading);
     let alpha = alpha.copied().unwrap_or_default();
     front
         .validate()
@@ -217,39 +217,39 @@ fn solid(
         .and_then(|()| alpha.validate())
         .and_then(|()| cut_from.map_or(Ok(()), check_solid))
         .map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
-    let looks = Looks {
+    let appearance = Appearance {
         front,
         back: back.map_or(front, |back| back.0),
-        reflectance: reflectance.copied().unwrap_or(seen.reflectance),
+        reflectance: reflectance.copied().unwrap_or(defaults.reflectance),
         faces: faces.copied().unwrap_or_default(),
         blend: alpha.blends(),
         terms: shading.into(),
         maps: maps.map_or_else(Default::default, |maps| {
-            let looks = |map: &SurfaceMap| {
+            let appearance = |map: &SurfaceMap| {
                 let there = textures.and_then(|textures| textures.get(&map.texture));
                 let pyramid = there.map_or_else(Pyramid::missing, |texture| texture.0.clone());
-                ReadMap { pyramid, map: map.clone() }
+                MapSource { pyramid, map: map.clone() }
             };
-            maps.shown([0, 1].map(|set| mesh.uv_set(set).is_some())).map(|map| map.map(looks))
+            maps.shown([0, 1].map(|set| mesh.uv_set(set).is_some())).map(|map| map.map(appearance))
         }),
         mask: alpha.cutoff().map(f64::from),
         cut_from: cut_from.copied(),
         colored: colors.copied().unwrap_or_default() == VertexColors::Multiply,
     };
-    Ok(Solid::new(entity, mesh.clone(), seen.view.eye_from_model(&world_from_model), &looks))
+    Ok(Solid::new(entity, mesh.clone(), defaults.view.eye_from_model(&world_from_model), &appearance))
 }
 
 fn check_maps(maps: &Maps) -> Result<(), InvalidValue> {
     maps.wrong().map_or(Ok(()), |wrong| {
         let field = format!("{}.{}", wrong.kind.name(), wrong.field);
-        Fields::of("Maps").number(&field, wrong.value, false, wrong.expected)
+        Fields::for_owner("Maps").number(&field, wrong.value, false, wrong.expected)
     })
 }
 
 fn check_solid(solid: &SolidTexture) -> Result<(), InvalidValue> {
-    solid
-        .wrong()
-        .map_or(Ok(()), |wrong| Fields::of("SolidTexture").number(wrong.field, wrong.value, false, wrong.expected))
+    solid.wrong().map_or(Ok(()), |wrong| {
+        Fields::for_owner("SolidTexture").number(wrong.field, wrong.value, false, wrong.expected)
+    })
 }
 
 fn bad_transform(entity: Entity, name: Option<&Name>, transform: &GlobalTransform) -> OracleError {

@@ -1,4 +1,4 @@
-//! Where things are: the scene's unit of length, the camera, transforms.
+//! Positions: the scene's unit of length, the camera, transforms.
 
 use fastrand::Rng;
 use serde_json::{Value, json};
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::{Object, short, shorts};
 use crate::random::RngExt;
 
-/// The length that all others are multiples of: 1 as a rule.
+/// The length that all others are multiples of: usually 1.
 pub(super) fn unit(random: &mut Rng) -> f64 {
     match random.u64(0..=99) {
         0..3 => random.magnitude(-60, 60),
@@ -15,12 +15,12 @@ pub(super) fn unit(random: &mut Rng) -> f64 {
     }
 }
 
-/// So far from the origin, in any direction.
+/// A point at this distance from the origin, in any direction.
 pub(super) fn at_distance(random: &mut Rng, distance: f64) -> [f64; 3] {
     random.direction().map(|c| c * distance)
 }
 
-/// From outside as a rule, from near by, or from inside.
+/// Usually from outside, sometimes from near by or from inside.
 pub(super) fn camera(random: &mut Rng, unit: f64) -> Value {
     let distance = match random.u64(0..=19) {
         0 => random.between(0.05, 0.8),
@@ -38,7 +38,7 @@ pub(super) fn camera(random: &mut Rng, unit: f64) -> Value {
         1 => json!(short(random.between(1.0, 10.0))),
         _ => json!(short(random.between(20.0, 90.0))),
     });
-    // Of scenes of another size the default would cut everything away.
+    // In scenes of another size the default would clip everything.
     let near = match random.u64(0..=3) {
         0 => random.magnitude(-10, -1),
         _ => 0.1,
@@ -62,7 +62,7 @@ pub(super) fn transform(random: &mut Rng, unit: f64) -> Value {
     transform.into()
 }
 
-/// Six digits, so that its length is 1 as nearly as the format wants.
+/// Six digits, so that its length is near enough to 1 for the format.
 pub(super) fn quaternion(random: &mut Rng) -> Value {
     let ([x, y, z], share) = (random.direction(), random.between(-1.0, 1.0));
     let rest = (1.0 - share * share).sqrt();

@@ -15,27 +15,28 @@ use halfway_frame::why_empty::{EmptyReason, why_empty};
 
 /// The messages that have been logged.
 #[derive(Resource, Default)]
-pub(crate) struct Told(HashSet<String>);
+pub(crate) struct Logged(HashSet<String>);
 
-/// So that a scene that goes wrong in ever new words takes no memory without end.
+/// The most messages, so that errors with ever new texts do not use unlimited memory.
 const MOST: usize = 1000;
 
-impl Told {
-    /// Whether the message is new. It is not from now on.
+impl Logged {
+    /// Records the message, and returns whether it is new.
     fn is_new(&mut self, message: &str) -> bool {
         self.0.len() < MOST && !self.0.contains(message) && self.0.insert(message.to_owned())
     }
 }
 
-/// Logs each error of the frame, unless a window shows the frames: it says errors itself, also without a logger.
+/// Logs each error of the frame, unless a window shows the frames: the window reports errors itself, also without a
+/// logger.
 ///
-/// The target has a name of its own, so that a program that prints what
-/// [`render_picture`](crate::render_picture) returns can turn these off.
-pub(crate) fn tell_errors(
+/// The log target has a name of its own, so that a program that prints the errors of
+/// [`render_picture`](crate::render_picture) can turn these off.
+pub(crate) fn log_errors(
     report: Res<FrameReport>,
     #[cfg(feature = "wgpu")] surface: Option<Res<SurfaceTarget>>,
     canvas: Option<Res<CanvasTarget>>,
-    mut told: ResMut<Told>,
+    mut logged: ResMut<Logged>,
 ) {
     #[cfg(feature = "wgpu")]
     if surface.is_some() {
@@ -46,7 +47,7 @@ pub(crate) fn tell_errors(
     }
     for error in &report.errors {
         let message = error.to_string();
-        if told.is_new(&message) {
+        if logged.is_new(&message) {
             log::error!(target: "halfway_render::errors", "{message}");
         }
     }
@@ -54,13 +55,16 @@ pub(crate) fn tell_errors(
 
 type Opacity = (Entity, &'static Material, Option<&'static AlphaMode>, Option<&'static Name>);
 
-/// Logs how many materials have an opacity that nothing shows.
-pub(crate) fn tell_of_opacity(objects: Query<Opacity, (With<Mesh3d>, Changed<Material>)>, mut told: ResMut<Told>) {
+/// Logs materials with an opacity that has no effect.
+pub(crate) fn log_ineffective_opacity(
+    objects: Query<Opacity, (With<Mesh3d>, Changed<Material>)>,
+    mut logged: ResMut<Logged>,
+) {
     let is_opaque = |alpha: Option<&AlphaMode>| alpha.is_none_or(|alpha| *alpha == AlphaMode::Opaque);
     let mut hidden = objects.iter().filter(|(_, material, alpha, _)| material.opacity < 1.0 && is_opaque(*alpha));
     let Some((entity, _, _, name)) = hidden.next() else { return };
     let message = "an opacity below 1 does not show without blending: insert `AlphaMode::Blend`, or a mask";
-    if told.is_new(message) {
+    if logged.is_new(message) {
         let others = match hidden.count() {
             0 => String::new(),
             1 => " and of another object".into(),
@@ -76,11 +80,11 @@ pub(crate) fn may_be_empty(report: Res<FrameReport>) -> bool {
 }
 
 /// Logs why the frame shows nothing.
-pub(crate) fn tell_why_empty(world: &mut World) {
-    // A room may be seen from within; whoever finds the picture empty asks for it.
+pub(crate) fn log_why_empty(world: &mut World) {
+    // A camera may be inside an object on purpose; `why_empty` still gives that reason on request.
     let reason = why_empty(world).filter(|reason| !matches!(reason, EmptyReason::CameraInside { .. }));
     let Some(reason) = reason else { return };
-    if world.resource_mut::<Told>().is_new(&reason.to_string()) {
+    if world.resource_mut::<Logged>().is_new(&reason.to_string()) {
         log::warn!("the picture shows nothing: {reason}");
     }
 }
@@ -91,9 +95,9 @@ mod tests {
 
     #[test]
     fn a_message_is_new_once() {
-        let mut told = Told::default();
-        assert!(told.is_new("no light") && !told.is_new("no light") && told.is_new("no camera"));
-        let new = (0..2 * MOST).filter(|i| told.is_new(&i.to_string())).count();
+        let mut logged = Logged::default();
+        assert!(logged.is_new("no light") && !logged.is_new("no light") && logged.is_new("no camera"));
+        let new = (0..2 * MOST).filter(|i| logged.is_new(&i.to_string())).count();
         assert_eq!(new, MOST - 2);
     }
 }

@@ -1,4 +1,4 @@
-//! The light from all directions.
+//! The environment of the scene.
 
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemState;
@@ -13,17 +13,17 @@ use super::view::PictureView;
 
 /// The environment, in eye space.
 #[derive(Clone, Debug)]
-pub(super) struct OracleSurroundings {
+pub(super) struct OracleEnvironment {
     pub(super) map: EnvironmentMap,
     pub(super) strength: f64,
     environment_from_eye: DMat3,
-    /// The level that is seen behind everything, where it is.
+    /// The level that is drawn as the sky, if the sky is drawn.
     pub(super) sky: Option<f64>,
 }
 
-impl OracleSurroundings {
-    /// That of the first entity, where there is one.
-    pub(super) fn gather(world: &mut World, view: &PictureView) -> Result<Option<Self>, OracleError> {
+impl OracleEnvironment {
+    /// The environment of the first entity that has one.
+    pub(super) fn from_world(world: &mut World, view: &PictureView) -> Result<Option<Self>, OracleError> {
         let mut query = world.query::<(Entity, &EnvironmentLight, Option<&Name>)>();
         let mut shown = SystemState::<Shown>::new(world);
         let shown = shown.get(world).expect(ALWAYS);
@@ -43,12 +43,12 @@ impl OracleSurroundings {
         }))
     }
 
-    /// From a direction of eye space.
+    /// The light from a direction of eye space.
     pub(super) fn at(&self, direction: DVec3, level: f64) -> Color {
         self.map.at((self.environment_from_eye * direction).to_array(), level)
     }
 
-    /// E of a normal of eye space.
+    /// The mean light E on a surface with a normal of eye space.
     pub(super) fn mean_light(&self, n: Color) -> Color {
         let [r, g, b, _] =
             self.map.harmonics().mean_light((self.environment_from_eye * DVec3::from_array(n)).to_array());
@@ -57,7 +57,7 @@ impl OracleSurroundings {
 }
 
 fn check(light: &EnvironmentLight) -> Result<(), InvalidValue> {
-    light
-        .wrong()
-        .map_or(Ok(()), |wrong| Fields::of("EnvironmentLight").number(wrong.field, wrong.value, false, wrong.expected))
+    light.wrong().map_or(Ok(()), |wrong| {
+        Fields::for_owner("EnvironmentLight").number(wrong.field, wrong.value, false, wrong.expected)
+    })
 }

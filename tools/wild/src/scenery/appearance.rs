@@ -5,7 +5,7 @@ use halfway::lighting::Choices;
 use halfway::prelude::{Reflectance, Shading};
 use serde_json::{Value, json};
 
-use super::{Object, place, short, shorts};
+use super::{Object, positions, short, shorts};
 use crate::random::RngExt;
 
 /// A few of the presets; which one makes no difference to the code that draws it.
@@ -56,10 +56,10 @@ pub(super) fn solid(random: &mut Rng, unit: f64) -> Value {
     solid.perhaps(random, 60, "octaves", |random| random.u64(1..=8).into());
     let cells = random.magnitude(-2, 1) / unit;
     let stretched = [0; 3].map(|_| cells * random.between(0.6, 1.4));
-    let moved = place::at_distance(random, 2.0);
+    let moved = positions::at_distance(random, 2.0);
     solid.set(
         "transform",
-        json!({"scale": shorts(stretched), "rotation": place::quaternion(random), "translation": shorts(moved)}),
+        json!({"scale": shorts(stretched), "rotation": positions::quaternion(random), "translation": shorts(moved)}),
     );
     solid.perhaps(random, 70, "colors", |random| json!([color(random, 1.0), color(random, 1.0)]));
     solid.into()

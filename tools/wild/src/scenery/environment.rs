@@ -1,4 +1,4 @@
-//! Light from all directions: one of a few small images, which scenes name by their place beside them.
+//! Environments: one of a few small images, which scenes name by a relative path.
 
 use fastrand::Rng;
 use serde_json::{Value, json};

@@ -1,4 +1,4 @@
-//! What the light from all directions adds at a hit, and what is seen of it.
+//! The environment's light at a hit, and the sky behind the scene.
 
 use bevy_math::DVec3;
 use halfway_lighting::Frequency;
@@ -8,34 +8,34 @@ use halfway_lighting::equations::{
     specular_exponent, surroundings, view_vector,
 };
 
-use super::gather::OracleScene;
 use super::raster::{Hit, HitPoint};
+use super::scene::OracleScene;
 use super::solid::{Color, Solid};
 
 impl OracleScene {
-    /// What is seen along a ray where nothing is drawn.
+    /// The colour along a ray that hits nothing: the sky or the background.
     pub(super) fn behind(&self, ray: DVec3) -> Color {
-        let sky = self.surroundings.as_ref().and_then(|around| Some((around, around.sky?)));
-        sky.map_or(self.background, |(around, level)| scale(around.at(ray, level), around.strength))
+        let sky = self.environment.as_ref().and_then(|environment| Some((environment, environment.sky?)));
+        sky.map_or(self.background, |(environment, level)| scale(environment.at(ray, level), environment.strength))
     }
 
-    /// What the environment adds to the ambient and to the specular terms at a hit, whose material there is given.
-    pub(super) fn surrounded(&self, hit: &Hit, material: &Coefficients<f64>) -> [Color; 2] {
-        let Some(around) = &self.surroundings else { return [[0.0; 3]; 2] };
+    /// The environment's ambient and specular terms at a hit, with the material there.
+    pub(super) fn environment_terms(&self, hit: &Hit, material: &Coefficients<f64>) -> [Color; 2] {
+        let Some(environment) = &self.environment else { return [[0.0; 3]; 2] };
         let solid = &self.solids[hit.solid];
         let (p, n) = self.point(solid, hit);
         let surface = ShadedPoint { position: p.to_array(), normal: side_normal(n, hit.front) };
         let r = mirrored(surface.normal, view_vector(&surface, &self.viewer));
         let exponent = specular_exponent(solid.reflectance, material.shininess);
-        let [exponent, _] = self.gloss(hit, exponent);
+        let [exponent, _] = self.highlight_exponent(hit, exponent);
         let alpha = lobe_exponent(solid.reflectance, exponent);
-        let level = around.map.level_of(lobe_angle(alpha));
-        let arriving = [around.mean_light(surface.normal), around.at(DVec3::from_array(r), level)];
-        surroundings([material.kd, material.ks], around.strength, arriving)
+        let level = environment.map.level_of(lobe_angle(alpha));
+        let arriving = [environment.mean_light(surface.normal), environment.at(DVec3::from_array(r), level)];
+        surroundings([material.kd, material.ks], environment.strength, arriving)
     }
 
-    /// Where a hit lies, and the normal of the front there: that of the triangle under flat shading, and one that
-    /// images turn only where light is shaded at the fragments.
+    /// The position of a hit and the front's normal there: the triangle's own under flat shading, else the interpolated
+    /// one, which images turn only if a term is shaded at the fragments.
     fn point(&self, solid: &Solid, hit: &Hit) -> (DVec3, Color) {
         let (triangle, [u, v, w]) = match hit.place {
             HitPoint::Triangle(triangle, weights) => (triangle, weights),
@@ -51,6 +51,6 @@ impl OracleScene {
         let n = (a * u + b * v + c * w).to_array();
         let smooth = interpolated_normal(n, geometric);
         let turns = solid.terms.has(Frequency::Fragment);
-        (p, if turns { self.relief(hit, n, smooth) } else { smooth })
+        (p, if turns { self.front_normal(hit, n, smooth) } else { smooth })
     }
 }
