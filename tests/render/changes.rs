@@ -308,10 +308,10 @@ fn changes_of_objects() -> Vec<Change> {
 fn changes_around() -> Vec<Change> {
     vec![
         change("the near plane", |stage, _| {
-            changed::<Camera>(stage, |camera| camera.projection = camera.projection.with_near(3.9))
+            changed::<Camera>(stage, |camera| camera.projection = camera.projection.with_near(3.9));
         }),
         change("the camera's angle", |stage, _| {
-            changed::<Camera>(stage, |camera| camera.projection = Projection::perspective(0.94).with_near(3.9))
+            changed::<Camera>(stage, |camera| camera.projection = Projection::perspective(0.94).with_near(3.9));
         }),
         change("the view's shading", |stage, _| {
             let camera = first::<Camera>(stage);

@@ -1,8 +1,8 @@
-//! What an opacity below 1 does to a surface.
+//! The effect of an opacity below 1: none, a cut, or blending.
 
 use crate::invalid::{Fields, InvalidValue};
 
-/// What an opacity below 1 does to a surface: nothing, a cut, or blending. Default: nothing, the surface is opaque.
+/// The effect of an opacity below 1 on a surface: none, a cut, or blending. Default: none, the surface is opaque.
 ///
 /// The opacity is the material's, times that of the vertices' colours and of images, where there are any. A cutoff is a
 /// finite number, 0 or more; 0 cuts nothing away.

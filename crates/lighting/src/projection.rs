@@ -260,14 +260,14 @@ impl<T: Real> Lens<T> {
     }
 
     /// w of clip space at a depth.
-    #[inline(always)]
+    #[inline]
     pub fn w(&self, depth: T) -> T {
         if self.is_parallel { T::one() } else { depth }
     }
 
     /// A number that is greater the nearer a depth is, and linear over the picture of any plane: 1/depth, or, where rays
     /// are parallel, 1 at the near plane to 0 at the far one.
-    #[inline(always)]
+    #[inline]
     pub fn nearness(&self, depth: T) -> T {
         if self.is_parallel { (self.far - depth) / (self.far - self.near) } else { depth.recip() }
     }
@@ -309,19 +309,19 @@ impl<T: Real> Lens<T> {
     }
 
     /// 1/w where this is the [nearness](Self::nearness).
-    #[inline(always)]
+    #[inline]
     pub fn inverse_w(&self, nearness: T) -> T {
         if self.is_parallel { T::one() } else { nearness }
     }
 
     /// By how much 1/w changes from a pixel to the next where the nearness changes by this.
-    #[inline(always)]
+    #[inline]
     pub fn inverse_w_step(&self, nearness_step: T) -> T {
         if self.is_parallel { T::zero() } else { nearness_step }
     }
 
     /// By how much the depth changes from a pixel to the next where the nearness changes by this and w is known.
-    #[inline(always)]
+    #[inline]
     pub fn depth_step(&self, nearness_step: T, w: T) -> T {
         let by = if self.is_parallel { self.far - self.near } else { w * w };
         -by * nearness_step
@@ -403,14 +403,14 @@ impl<T: Real> Lens<T> {
     }
 
     /// How far a point is outside the two side planes of an axis; their normals are [`across`](Self::across) long.
-    #[inline(always)]
+    #[inline]
     fn beyond(&self, axis: usize, center: [T; 3]) -> T {
         self.scale[axis] * center[axis].abs() - self.w(-center[2])
     }
 
     /// A radius times the length of the normals of an axis' side planes: |scale·x| ≤ w. The planes pass through the eye,
     /// or are parallel.
-    #[inline(always)]
+    #[inline]
     fn across(&self, axis: usize, radius: T) -> T {
         let scale = self.scale[axis];
         if self.is_parallel {

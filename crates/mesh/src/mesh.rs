@@ -213,9 +213,9 @@ impl Mesh {
     /// Moves the vertices; triangles, texture coordinates and colours stay, and so do the normals and tangents until
     /// [`set_normals`](Self::set_normals).
     ///
-    /// This is the cheap way to change a mesh each frame: change the asset itself, by `Assets::get_mut`. Nothing is made
-    /// anew but the bounds. What draws recognises the triangles and keeps how it has laid them out: from the second
-    /// change on it measures the moved vertices and sorts nothing. A mesh that is made anew each frame, by
+    /// This is the cheap way to change a mesh each frame: change the asset itself, by `Assets::get_mut`. Only
+    /// the bounds are computed again. The renderer recognises the triangles and keeps their layout: from the second
+    /// change on it measures the moved vertices and sorts nothing. A mesh that is created anew each frame, by
     /// [`from_parts`](Self::from_parts), is laid out anew each time. The example `waves` moves a sheet of 100 × 100
     /// vertices.
     ///

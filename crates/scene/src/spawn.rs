@@ -251,7 +251,7 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     insert_some(entity, Some(alpha).filter(|alpha| *alpha != AlphaMode::default()));
 }
 
-/// What the opacity of an object does, by its keys `mask` and `blend` and by its model's own material.
+/// The effect of an object's opacity, by its keys `mask` and `blend` and by its model's own material.
 fn alpha(object: &ObjectEntry, own: AlphaMode) -> AlphaMode {
     // A material that asks for blending does not ask to be cut out.
     let of_model = own.cutoff().filter(|_| object.blend != Some(true));

@@ -25,7 +25,7 @@ struct DrawnMesh<T> {
     triangles: Option<Arc<Vec<[u32; 3]>>>,
 }
 
-/// What was made of a mesh before it changed.
+/// The data made of a mesh before it changed.
 pub enum Before<T> {
     /// Nothing, or nothing that is of use.
     Nothing,

@@ -161,8 +161,8 @@ impl ModelEye {
         Self { xyz: xyz.as_vec3(), w }
     }
 
-    /// From a point of model space to the eye.
-    fn from_point(&self, p: Vec3) -> (Vec3, f32) {
+    /// The vector from a point of model space to the eye.
+    fn vector_from(&self, p: Vec3) -> (Vec3, f32) {
         (self.xyz - self.w * p, self.w)
     }
 }
@@ -225,7 +225,7 @@ impl Outline {
     /// drawn. Never false for one that shows.
     pub(crate) fn is_seen(&self, sight: &Sight) -> bool {
         // The first leaves out about half, and takes no longer.
-        let faces = sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye.from_point(self.center), back));
+        let faces = sight.eye.is_none_or(|(eye, back)| !self.facing.hides(eye.vector_from(self.center), back));
         faces
             && (sight.is_inside || {
                 let (center, radius) = self.sphere(sight.model_view);

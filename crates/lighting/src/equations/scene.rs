@@ -53,8 +53,8 @@ impl<T: Real> Coefficients<T> {
         Self { ka: black, kd: black, ks: black, ke: black, shininess: T::zero(), opacity: T::one() }
     }
 
-    /// Coefficients under which no light adds less than under either of two, so that bounds hold for both. What lights
-    /// have no part in, emission and opacity, is this one's.
+    /// Coefficients under which no light adds less than under either of two, so that bounds hold for both. Emission
+    /// and opacity, in which lights have no part, are those of `self`.
     #[must_use]
     pub fn brightest(&self, other: &Self) -> Self {
         let larger = |a: [T; 3], b: [T; 3]| [0, 1, 2].map(|channel| a[channel].max(b[channel]));

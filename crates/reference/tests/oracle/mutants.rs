@@ -336,7 +336,7 @@ fn a_wrong_order_of_blended_sides_is_found() {
     let mesh = ball(Vec3::new(0.0, 0.0, -2.0), 1.0, 32, 16);
     let mut truth = Stage::new();
     truth.add(mesh.clone(), (near, BackMaterial(far), Faces::Both, AlphaMode::Blend));
-    // What is spawned first is drawn first: of equal depth.
+    // At equal depth the first spawned is drawn first.
     let mut wrong = Stage::new();
     wrong.add(mesh.clone(), (near, Faces::Front, AlphaMode::Blend));
     wrong.add(mesh.clone(), (far, Faces::Back, AlphaMode::Blend));

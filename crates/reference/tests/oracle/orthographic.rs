@@ -5,7 +5,7 @@ use halfway_lighting::{DirectionalLight, Faces, Material, PointLight, Projection
 use halfway_mesh::UvSphere;
 use halfway_reference::Mode;
 
-use crate::mutants::{all_pixels, assert_caught, float, moved, oracle};
+use crate::mutants::{assert_caught, float, moved, oracle};
 use crate::scene::{SHADINGS, Stage, assert_close, glow, grey, panel, wall};
 
 /// The stage under a camera that sees 4 units from edge to edge, from depth `near` on.
@@ -117,7 +117,6 @@ fn faults_of_an_orthographic_drawer_are_caught() {
         ("a far plane too near", Projection::Orthographic { height: 4.0, near: 0.0, far: Some(4.9) }),
     ] {
         let actual = balls(wrong).draw(96, 96);
-        assert!(all_pixels().any(|(x, y)| actual.pixel(x, y) != truth.draw(96, 96).pixel(x, y)), "{fault} shows");
         assert_caught(fault, &mut truth, &actual);
     }
 }

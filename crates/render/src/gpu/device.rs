@@ -78,7 +78,7 @@ impl Gpu {
     ///
     /// [`from_existing`](Self::from_existing) takes the adapter, too.
     pub fn from_device(device: wgpu::Device, queue: wgpu::Queue) -> Self {
-        // What a device does not tell is taken at its worst.
+        // Properties that a device does not report are taken at their worst.
         let unfit = unfit(&device.adapter_info(), wgpu::DownlevelFlags::all());
         Self::new((None, None), device, queue, unfit)
     }

@@ -166,7 +166,7 @@ impl TextureTarget {
         }
     }
 
-    /// What of it does not go with the rest of it, or with the camera.
+    /// The first of its fields that does not fit the others or the camera.
     fn clash(&self, camera: &Camera) -> Option<&'static str> {
         let is_part = self.viewport.is_some() || self.load == Load::Keep;
         if self.viewport.is_some_and(|viewport| viewport.max.cmpgt(self.size).any()) {

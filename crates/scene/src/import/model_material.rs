@@ -13,7 +13,7 @@ pub struct ModelMaterial {
     pub material: Material,
     /// Both where the file says double-sided, else the front.
     pub faces: Faces,
-    /// What its opacity does: glTF's `alphaMode` and `alphaCutoff`. An MTL file cannot ask for blending; whoever shows it
+    /// The effect of its opacity: glTF's `alphaMode` and `alphaCutoff`. An MTL file cannot ask for blending; whoever shows it
     /// has to. With a `map_d` it is cut out at 0.5, since such images mostly cut something out; else opaque.
     pub alpha: AlphaMode,
 }
