@@ -32,9 +32,9 @@ proptest! {
         prop_assume!(lens.shows(depth));
         let [x, y, _, w] = lens.fitted([depth - 1.0, depth + 1.0]).clip_from_eye(p);
         let ray = lens.ray([x / w, y / w]);
-        for axis in 0..3 {
-            let found = ray.origin[axis] + depth * ray.direction[axis];
-            prop_assert!((found - p[axis]).abs() < 1e-12 * (1.0 + p[axis].abs()), "{found} for {}", p[axis]);
+        for ((origin, direction), expected) in ray.origin.iter().zip(&ray.direction).zip(p) {
+            let found = origin + depth * direction;
+            prop_assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{found} for {expected}");
         }
     }
 
