@@ -20,7 +20,8 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
                 continue;
             }
             let at = Vec3::new(2.0 * f32::from(x), 0.8, 2.0 * f32::from(z));
-            let color = if (x + z) % 2 == 0 { LinearRgba::rgb(0.5, 0.35, 0.2) } else { LinearRgba::rgb(0.25, 0.35, 0.5) };
+            let color =
+                if (x + z) % 2 == 0 { LinearRgba::rgb(0.5, 0.35, 0.2) } else { LinearRgba::rgb(0.25, 0.35, 0.5) };
             commands.spawn((Mesh3d(block.clone()), Material::matte(color), Transform::from_translation(at)));
         }
     }

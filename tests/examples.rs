@@ -145,7 +145,8 @@ fn isometric() {
     draw("isometric", &file, &[]);
     let picture = picture(&file);
     // Down the middle lie the farthest block, the teapot and the nearest block: the blocks are equally high.
-    let is_brown = |&y: &u32| picture.get_pixel(SIZE.0 / 2 - 4, y).0[0] > picture.get_pixel(SIZE.0 / 2 - 4, y).0[2] + 25;
+    let is_brown =
+        |&y: &u32| picture.get_pixel(SIZE.0 / 2 - 4, y).0[0] > picture.get_pixel(SIZE.0 / 2 - 4, y).0[2] + 25;
     let far = (0..SIZE.1).skip_while(|y| !is_brown(y)).take_while(is_brown).count();
     let near = (0..SIZE.1).rev().skip_while(|y| !is_brown(y)).take_while(is_brown).count();
     assert!(far > 10 && far.abs_diff(near) <= 1, "{far} and {near} pixels");

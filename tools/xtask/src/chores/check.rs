@@ -28,8 +28,7 @@ enum Check {
     Lints,
     /// The documentation builds without warnings
     Documentation,
-    /// The library builds without a window, and without wgpu draws a picture; its parts without the ECS build from few
-    /// crates
+    /// It builds without a window, draws without wgpu, and its parts need few crates without the ECS
     Smallest,
 }
 
