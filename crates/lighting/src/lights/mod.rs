@@ -55,7 +55,7 @@ pub trait LightKind: Described + Debug + PartialEq {
     const NAME: &'static str;
     /// The name of its function in [`WGSL`](Self::WGSL).
     const FUNCTION: &'static str;
-    /// Its function in WGSL: the light of one light of the kind at a point. It takes the light, p, n, v, the shininess
+    /// Its function in WGSL: the light of one light of the kind at a point. It takes the light, p, n, v, the material
     /// and the terms that are shaded, and gives an `Irradiance`.
     const WGSL: &'static str;
 

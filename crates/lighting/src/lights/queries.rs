@@ -8,7 +8,7 @@ use bevy_ecs::system::{Query, SystemParam};
 use bevy_ecs::world::EntityWorldMut;
 use bevy_transform::components::GlobalTransform;
 
-use super::{DirectionalLight, HemisphereLight, Kind, LightComponent, PointLight, SpotLight};
+use super::{Kind, LightComponent};
 use crate::shown::Shown;
 
 /// The data of a light of one kind in a query.
@@ -25,13 +25,13 @@ macro_rules! light_queries {
             }
         }
 
-        type AnyLight = Or<($(With<$component>,)*)>;
-        type AnyLightChange = Or<($(Changed<$component>,)* Changed<GlobalTransform>)>;
+        type AnyLight = Or<($(With<super::$component>,)*)>;
+        type AnyLightChange = Or<($(Changed<super::$component>,)* Changed<GlobalTransform>)>;
 
         /// The lights of a world, as a parameter of a system.
         #[derive(SystemParam)]
         pub struct LightQueries<'w, 's> {
-            $($name: Query<'w, 's, LightData<$component>>,)*
+            $($name: Query<'w, 's, LightData<super::$component>>,)*
             changed: Query<'w, 's, (), (AnyLight, AnyLightChange)>,
             disabled: Query<'w, 's, (), (AnyLight, With<Disabled>, Added<Disabled>)>,
             shown: Shown<'w, 's>,

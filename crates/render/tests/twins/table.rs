@@ -211,7 +211,6 @@ fn without_range(x: &[f32]) -> Light<f64> {
     Light::Point(Point { range: None, ..spot(x).point })
 }
 
-/// How these lights arrive: none comes from all around.
 /// A material of this shininess.
 fn glossy(shininess: f32) -> Coefficients<f64> {
     Coefficients { shininess: f64::from(shininess), ..Coefficients::black() }
