@@ -190,7 +190,7 @@ pub(crate) fn solid_rows() -> Vec<Row> {
             |x| vec![gradient_noise(wide(x))],
             |_, _| vec![40.0 * ULP],
         ),
-        row(("left", "fade(s(i, 4))"), Kind::Scalar, points(), |x| vec![fade(x[4].into())], |_, _| vec![8.0 * ULP]),
+        row(("fade", "fade(s(i, 4))"), Kind::Scalar, points(), |x| vec![fade(x[4].into())], |_, _| vec![8.0 * ULP]),
         row(
             ("fractal", "fractal(v(i, 0), u32(s(i, 3)), s(i, 4))"),
             Kind::Scalar,

@@ -35,7 +35,7 @@ const FAULTS: [(&str, &str, &str); 25] = [
     ("at_corner", "(number & 2u) == 0u", "(number & 2u) != 0u"),
     ("gradient_noise", "f * 6.0 - 15.0", "f * 6.0 - 15.001"),
     ("gradient_noise", "mix(front, behind, s.z)", "mix(front, behind, f.z)"),
-    ("left", "(width - 0.25) * 2.0", "(width - 0.26) * 2.0"),
+    ("fade", "(width - 0.25) * 2.0", "(width - 0.26) * 2.0"),
     ("fractal", "min(octaves, MOST_OCTAVES)", "min(octaves, 8u)"),
     ("fractal", "f32(octave) * 0.37", "f32(octave) * 0.3701"),
     ("fractal", "amplitude *= 0.5", "amplitude *= 0.5001"),

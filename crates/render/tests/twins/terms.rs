@@ -154,7 +154,7 @@ fn mapped_rows() -> Vec<Row> {
         ($front:literal) => {
             concat!(
                 "parts_of_vertices(Varyings(vec4f(), 0u, vec4f(), vec3f(), v(i, 0), v(i, 3), v(i, 6), v(i, 9), ",
-                "v(i, 12), v(i, 15), vec3f(), vec4f(), vec4f(), vec4f(), vec3f()), ",
+                "v(i, 12), v(i, 15), vec3f(), vec4f(), vec4f(), vec4f(), vec4f()), ",
                 $front,
                 ")"
             )
