@@ -15,7 +15,7 @@ pub struct View {
     /// World to eye: the inverse of the camera's rotation and translation, in f64.
     pub eye_from_world: DAffine3,
     /// Eye to clip, in world units. Its depth buffer spans the visible objects after
-    /// [`RenderSet::Select`](crate::RenderSet::Select).
+    /// [`RenderSet::Select`](crate::sets::RenderSet::Select).
     pub lens: Lens,
     /// How many pixels a length of 1 across the view takes where w of clip space is 1.
     pub pixels_at_unit_w: f32,

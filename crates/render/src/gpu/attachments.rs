@@ -1,7 +1,7 @@
 //! The attachments of a frame: textures, or the picture of a window's surface.
 
 use crate::gpu::device::Gpu;
-use crate::gpu::format::{drawn_format, headless_format, is_float};
+use crate::gpu::format::{DEPTH_FORMAT, drawn_format, headless_format, is_float};
 use crate::gpu::passes::policy::PicturePasses;
 use crate::gpu::shaders::picture::PicturePolicyRecord;
 use crate::gpu::surface::{Lost, SurfaceLost, SurfaceTarget};
@@ -106,8 +106,6 @@ impl ShaderOutput {
         }
     }
 }
-
-pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 impl Target {
     pub(crate) fn attachments(&self) -> Option<&Attachments> {

@@ -5,6 +5,8 @@ use crate::picture::Pixels;
 use halfway_frame::error::RenderError;
 use halfway_lighting::Samples;
 
+pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
 /// The format that a scene is drawn into before passes over the finished picture: 32-bit floats, or 16-bit ones if the
 /// adapter lacks an operation on those that the frame needs and the target holds bytes.
 pub(super) fn drawn_format(

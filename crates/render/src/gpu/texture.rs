@@ -1,8 +1,7 @@
 //! A texture of an engine's own.
 
-use crate::gpu::attachments::DEPTH_FORMAT;
 use crate::gpu::device::Gpu;
-use crate::gpu::format::is_float;
+use crate::gpu::format::{DEPTH_FORMAT, is_float};
 use bevy_ecs::prelude::{Res, ResMut, Resource};
 use bevy_math::{URect, UVec2};
 use halfway_frame::error::RenderError;

@@ -29,7 +29,7 @@ const OPACITY_SLACK: f32 = 0.015;
 /// Values above 1 in a colour are kept: the format allows them. Where `d` and `Tr` are both there and differ by more
 /// than 0.015 from d = 1 − Tr, `d` wins with a warning; there are programs that write `Tr` the other way round, and `d`
 /// is the key of the original format. An opacity of 0 is kept, with a warning: some programs write it for opaque
-/// surfaces. Opacity acts only on entities with [`Blend`](halfway_lighting::Blend).
+/// surfaces. Opacity acts only on entities with [`AlphaMode::Blend`](halfway_lighting::AlphaMode::Blend).
 ///
 /// | `illum` | effect |
 /// |---|---|

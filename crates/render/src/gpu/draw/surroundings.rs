@@ -1,9 +1,10 @@
 //! The set Upload: uploads the environment, and builds the pipeline of the sky.
 
-use crate::gpu::attachments::{DEPTH_FORMAT, ShaderOutput};
+use crate::gpu::attachments::ShaderOutput;
 use crate::gpu::device::Gpu;
 use crate::gpu::draw::maps::sent;
 use crate::gpu::draw::placings::packed_size;
+use crate::gpu::format::DEPTH_FORMAT;
 use crate::gpu::shaders::text::{SKY, surroundings_bindings};
 use bytemuck::{Pod, Zeroable};
 use halfway_frame::error::RenderError;

@@ -1,7 +1,8 @@
 //! Custom passes of an App, over the scene and before the policy.
 
-use crate::gpu::attachments::{DEPTH_FORMAT, Target};
+use crate::gpu::attachments::Target;
 use crate::gpu::device::Gpu;
+use crate::gpu::format::DEPTH_FORMAT;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use bevy_math::{DMat4, Mat4, UVec2};

@@ -1,7 +1,8 @@
 //! Builds a pipeline from its key.
 
-use crate::gpu::attachments::{DEPTH_FORMAT, ShaderOutput};
+use crate::gpu::attachments::ShaderOutput;
 use crate::gpu::device::Gpu;
+use crate::gpu::format::DEPTH_FORMAT;
 use crate::gpu::pipelines::key::PipelineKey;
 use crate::gpu::shaders::records::{INSTANCE, INSTANCE_BYTES};
 use crate::gpu::shaders::template::EntryPoint;
