@@ -1,8 +1,9 @@
-//! Colours in linear light, where there is no `bevy_color`.
+//! Linear RGB colours, for builds without `bevy_color`.
 
 use bytemuck::NoUninit;
 
-/// A colour in linear RGB, with the fields and the layout of `bevy_color`'s, which stands here with the feature `ecs`.
+/// A colour in linear RGB, with the fields and the layout of `bevy_color`'s, which takes its place with the feature
+/// `ecs`.
 #[derive(Clone, Copy, Debug, PartialEq, NoUninit)]
 #[repr(C)]
 pub struct LinearRgba {

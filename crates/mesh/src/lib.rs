@@ -3,7 +3,7 @@
 //! # Features
 //! Both are on by default.
 //! - `ecs`: [`Mesh3d`], [`MeshPlugin`] and [`SpawnOrder`]. Without it the crate has no ECS below it.
-//! - `formats`: model files, which are [`load`], [`write`](write()) and [`Model`] with what it holds.
+//! - `formats`: reading and writing of model files: [`load`], [`write`](write()), [`Model`] and its parts.
 
 mod bounds;
 mod classes;

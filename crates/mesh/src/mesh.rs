@@ -17,7 +17,7 @@ use crate::{Bounds, NormalReport, NormalWeighting, Surface};
 /// most 2³² − 1 vertices and as many indices, since a draw call counts them in 32 bits. Front faces wind counter-
 /// clockwise. Degenerate triangles may be among the others.
 ///
-/// A mesh does not change once it is made, and its clones share its data.
+/// Clones share their data until one of them changes ([`set_positions`](Self::set_positions)).
 ///
 /// ```
 /// use glam::{Vec2, Vec3};
@@ -36,7 +36,8 @@ pub struct Mesh {
     data: Arc<MeshData>,
 }
 
-/// Each list is shared by itself, so that a mesh that moves shares its triangles with the one before.
+/// The lists of a mesh. Clones share each list separately, so that a mesh that moves shares its triangles with the one
+/// before.
 #[derive(Clone, Debug, PartialEq)]
 struct MeshData {
     positions: Arc<Vec<Vec3>>,
@@ -127,7 +128,7 @@ pub enum MeshError {
 }
 
 impl MeshData {
-    /// Puts the vertices elsewhere, to valid positions, as many as before.
+    /// Replaces the positions by valid ones, as many as before.
     fn place(&mut self, positions: Vec<Vec3>) {
         if let Some(bounds) = Bounds::from_points(positions.iter().copied()) {
             self.bounds = bounds;

@@ -35,7 +35,7 @@ impl PendingPicture {
     pub fn request(world: &World) -> Result<Self, RenderError> {
         let picture = Self::of_newest_frame(world)?;
         if let Some(age) = world.get_resource::<PictureAge>() {
-            age.tell();
+            age.log_once();
         }
         Ok(picture)
     }
@@ -152,7 +152,7 @@ impl PictureAge {
     }
 
     /// Logs once that a picture is asked for that is a frame old.
-    fn tell(&self) {
+    fn log_once(&self) {
         if self.is_a_frame_old && !self.is_logged.swap(true, Ordering::Relaxed) {
             log::warn!(
                 "the picture is a frame old: it is asked for before the frame of this update is drawn; ask after \

@@ -2,7 +2,7 @@
 
 use halfway_lighting::Range;
 
-/// A value that does not hold: its path inside the scene, and what was expected there.
+/// A value that the format does not allow: its path inside the scene, and the expected values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct KeyProblem {
     pub(crate) key: String,
@@ -21,7 +21,7 @@ pub(crate) enum Limits {
     Numbers(Range),
     /// Whole numbers from the first to the second.
     Counts(u32, u32),
-    /// One of a few whole numbers, with what messages say about others.
+    /// One of a few whole numbers, with the message about others.
     OneOf(&'static [u32], &'static str),
 }
 

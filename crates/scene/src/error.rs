@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// A scene that cannot be read, does not hold, or cannot be put into a world.
+/// A scene that cannot be read, is invalid, or cannot be put into a world.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SceneError {
@@ -64,7 +64,7 @@ pub enum SceneError {
         /// The fault, and what was expected.
         message: String,
     },
-    /// A value of a scene does not hold, and there is no text to point into.
+    /// A value of a scene is invalid, and there is no text to point into.
     #[error("scene: {}{message}", named(key))]
     Value {
         /// The path of the key, such as `lights[2].attenuation`; empty for the scene as a whole.

@@ -85,8 +85,8 @@ impl SceneFile {
 
     /// Reads a scene file.
     ///
-    /// Paths in it stay as they are written: relative to the folder of the file, which [`spawn()`](fn@crate::spawn) is
-    /// told.
+    /// Paths in it stay as they are written: relative to the folder of the file, which is an argument of
+    /// [`spawn()`](fn@crate::spawn).
     ///
     /// # Errors
     /// [`SceneError::Read`], [`SceneError::NotAFile`], [`SceneError::TooLarge`] and [`SceneError::NotUtf8`] for a file
@@ -144,7 +144,7 @@ impl SceneFile {
 
     /// A scene of one model file, framed by the camera and lit by its own lights or by the default ones.
     ///
-    /// `path` is taken as it is; it is relative to the folder that [`spawn()`](fn@crate::spawn) is told.
+    /// `path` is taken as it is; it is relative to the folder that [`spawn()`](fn@crate::spawn) gets.
     pub fn for_model(path: impl Into<PathBuf>) -> Self {
         let model = ObjectEntry::new(MeshEntry::Path(path.into()));
         Self { objects: vec![model], ..Self::default() }

@@ -1,4 +1,4 @@
-//! The key of a scene file that says what becomes of intensities above 1.
+//! The key of a scene file for the policy for intensities above 1.
 
 use halfway_lighting::{Choices, Intensity};
 

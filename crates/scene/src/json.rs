@@ -1,4 +1,4 @@
-//! JSON text: what the parser says about it, told in the words of the format; and how a scene is written.
+//! JSON text: the parser's errors in the words of the format, and the layout of written scenes.
 
 use serde::Serialize;
 use serde_path_to_error::{Path, Segment};
@@ -17,7 +17,7 @@ pub(crate) fn read<T: Entry>(text: &str, origin: &str) -> Result<T, SceneError> 
     Ok(value)
 }
 
-/// The error about a value that was read and does not hold, at the place where it begins.
+/// The error about a value that was read and is invalid, at the place where it begins.
 pub(crate) fn error_at(text: &str, origin: &str, KeyProblem { key, message }: KeyProblem) -> SceneError {
     let (line, column) = line_and_column(text, value_at(text, &key));
     SceneError::Text { origin: origin.to_owned(), line, column, key, message }

@@ -75,7 +75,7 @@ pub(crate) trait Object: Keys {
         words_or_keys::<Self>(definitions)
     }
 
-    /// Checks what the limits of single keys do not cover.
+    /// Checks rules that involve several keys.
     fn check_whole(&self) -> Check {
         Ok(())
     }

@@ -13,20 +13,20 @@ use crate::entry::Entry;
 use crate::keys::{CheckKeys, Fill, Key, Keys, Object, Presence, Visit, Words, keys, keys_schema, words};
 
 /// A light. In JSON, the keys of `cone` and `light` stand beside the others, as far as the kind of light has them
-/// ([`LightKind`]); what it does not have is ignored here and refused there.
+/// ([`LightKind`]): other keys are refused in a file, and other fields here are ignored.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightEntry {
     /// The kind of light.
     pub kind: LightKind,
     /// Where the light is: (x, y, z, w), not all 0, with w = 1 in a point or spot light, whose file has three numbers.
     pub position: [f32; 4],
-    /// Which way it shines; of a directional light only the direction counts.
+    /// The direction and the cone; a directional light has the direction alone.
     pub cone: ConeEntry,
-    /// Its colors and how they weaken, but for those of a hemisphere.
+    /// Its colors and their attenuation, unless it is a hemisphere.
     pub light: PointLight,
     /// The colors of a hemisphere.
     pub hemisphere: HemisphereLight,
-    /// Whose frame position and direction are in, and with what the light moves.
+    /// The frame of position and direction, with which the light moves.
     pub attach: AttachEntry,
 }
 
@@ -345,7 +345,7 @@ impl Object for LightEntry {
         json!({ "description": Self::MEANING, "oneOf": kinds })
     }
 
-    /// Also what the kind does not have.
+    /// Also the keys that the kind does not have.
     fn check_whole(&self) -> Check {
         Entry::check(&self.position, &Limits::Any).within("position")?;
         homogeneous("position", &self.position)?;

@@ -14,8 +14,7 @@ pub(crate) fn value_at(text: &str, path: &str) -> usize {
     found.unwrap_or(start)
 }
 
-/// The byte at which the key begins whose value, or what comes after the key, begins at `byte`; `byte` itself if no
-/// key is there.
+/// The first byte of the key whose value, or the text after it, begins at `byte`; `byte` itself if there is no key.
 pub(crate) fn key_before(text: &str, byte: usize) -> usize {
     let before = text[..byte].trim_end();
     let before = before.strip_suffix(':').unwrap_or(before).trim_end();
@@ -123,7 +122,7 @@ mod tests {
             ("käse[0][1]", "2]", "2]"),
             ("käse[1].c", "\"x\\\"", "\"c\" :"),
             ("d", "{}", "\"d\""),
-            // The innermost value around what is not there.
+            // The innermost value around a missing one.
             ("käse[0][7]", "[1,", "[1, 2], {"),
             ("d.e.f", "{}", "\"d\""),
             ("e", "{\"a\"", "{\"a\""),

@@ -1,4 +1,4 @@
-//! A matrix as what `bevy_transform` can hold.
+//! A matrix as transforms of `bevy_transform`.
 //!
 //! A `Transform` is a translation, a rotation and a scale along the object's own axes; a matrix may also shear, that
 //! is, leave axes that are not perpendicular. Every matrix M is U·Σ·Vᵀ with rotations U, V and a diagonal Σ (its
@@ -48,7 +48,7 @@ fn perpendicular(axes: &[DVec3; 3]) -> bool {
 }
 
 /// Perpendicular columns as a rotation and the lengths along its axes; the first length is negative where the columns
-/// mirror. Columns not longer than `zero` get length 0 and whatever axis completes the rotation.
+/// mirror. Columns not longer than `zero` get length 0 and an axis that completes the rotation.
 fn rotation_and_scale(columns: [DVec3; 3], zero: f64) -> (Quat, Vec3) {
     let lengths = columns.map(DVec3::length);
     let unit = |i: usize| (lengths[i] > zero).then(|| columns[i] / lengths[i]);

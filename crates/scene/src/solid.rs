@@ -10,7 +10,7 @@ use crate::keys::{Object, keys, words};
 use crate::transform::TransformEntry;
 
 keys! {
-    /// `solid`: a pattern that fills space, of which the object's surface shows what it cuts out.
+    /// `solid`: a pattern that fills space, cut by the object's surface.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct SolidEntry {
         [optional]

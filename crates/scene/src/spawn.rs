@@ -38,16 +38,16 @@ pub struct Spawned {
     pub objects: Vec<Entity>,
     /// The lights: the scene's, in its order; or the models' own; or the default ones.
     pub lights: Vec<Entity>,
-    /// The scene's own warnings, and what was repaired or left out while models were loaded, one sentence each, with the
-    /// file's name.
+    /// The scene's own warnings, and those of its models' repairs and omissions, one sentence each, with the file's
+    /// name.
     pub warnings: Vec<String>,
 }
 
 /// Puts a scene into a world: camera, objects, lights, and the [`GlobalAmbient`] resource; and [`ViewTolerance`],
 /// where the scene has one.
 ///
-/// Paths in the scene are relative to `base_dir`, the folder of the scene file. The size of the picture is not the
-/// world's business: it is for whoever makes the target.
+/// Paths in the scene are relative to `base_dir`, the folder of the scene file. The size of the picture is
+/// not put into the world: it belongs to the target.
 ///
 /// - Where the scene has no camera, one is made that frames all objects ([`framing_camera`]).
 /// - Where an object has no material, its model's own materials are used, translated by
@@ -243,9 +243,9 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     insert_some(entity, object.shading);
     insert_some(entity, object.tolerance);
     insert_some(entity, object.reflectance);
-    // All parts are cut from one.
+    // All parts are cut from one solid.
     insert_some(entity, object.solid.as_ref().map(|solid| solid.for_part(&part.object_from_part)));
-    // Said only where it is not so anyway.
+    // The default needs no component.
     insert_some(entity, Some(object.vertex_colors).filter(|colors| *colors != VertexColors::default()));
     let alpha = alpha(object, own.map(|own| own.alpha).unwrap_or_default());
     insert_some(entity, Some(alpha).filter(|alpha| *alpha != AlphaMode::default()));
@@ -253,7 +253,7 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
 
 /// The effect of an object's opacity, by its keys `mask` and `blend` and by its model's own material.
 fn alpha(object: &ObjectEntry, own: AlphaMode) -> AlphaMode {
-    // A material that asks for blending does not ask to be cut out.
+    // An object that asks for blending is not cut out by its model's material.
     let of_model = own.cutoff().filter(|_| object.blend != Some(true));
     let cutoff = object.mask.or(of_model).filter(|cutoff| *cutoff > 0.0);
     AlphaMode::new(cutoff, object.blend.unwrap_or(own.blends()))
@@ -278,11 +278,11 @@ fn hang_own_maps(part: &ShapePart, textures: &mut TextureHandles, entity: Entity
     }
 }
 
-/// The textures of a scene's own images, by path and by what their numbers mean.
+/// The textures of a scene's own images, by path and by the meaning of their numbers.
 type SceneTextures<'a> = HashMap<(&'a Path, TexelMeaning), Handle<Texture>>;
 
-/// Gives objects, or all parts of their models, their images. Each file is read once for each meaning; what cannot be
-/// read is a warning, and a checker is shown in its place.
+/// Gives objects, or all parts of their models, their images. Each file is read once for each meaning; an
+/// unreadable one is a warning, and a checker is shown in its place.
 fn hang_maps(scene: &SceneFile, base_dir: &Path, frames: &[Entity], warnings: &mut Vec<String>, world: &mut World) {
     let mut handles = SceneTextures::new();
     for (index, (object, &frame)) in scene.objects.iter().zip(frames).enumerate() {

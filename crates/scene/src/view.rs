@@ -12,7 +12,7 @@ use crate::described;
 use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, Words, keys, named_words, words};
 
 words! {
-    /// `output`: what the channels of an 8- or 16-bit picture hold.
+    /// `output`: the encoding of the channels of an 8- or 16-bit picture.
     Encoding {
         /// Intensities encoded with the sRGB curve, as displays expect.
         srgb = Self::Srgb,
@@ -39,7 +39,7 @@ words! {
         both = Self::Both,
     }
 
-    /// `vertex_colors`: what becomes of the colors at a mesh's vertices.
+    /// `vertex_colors`: the use of the colors at a mesh's vertices.
     VertexColors {
         /// They multiply the ambient and diffuse reflectance, and the opacity where the object is blended, on both
         /// sides.

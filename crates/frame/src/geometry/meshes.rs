@@ -27,12 +27,12 @@ pub struct Geometry {
     pub drawn: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
-    /// Which vertices make triangles, in the order in which they are drawn; until what draws it has taken them, or for
-    /// as long as the mesh [moves](Self::moves).
+    /// The vertices of the triangles, in drawing order; `None` once the renderer has taken them, unless the mesh
+    /// [moves](Self::moves).
     pub(crate) triangles: Option<Arc<Vec<[u32; 3]>>>,
-    /// The vertices have moved since the mesh was drawn first, and may move again.
+    /// Whether vertices have moved since the mesh was first drawn, so that they may move again.
     pub(crate) moves: bool,
-    /// The same as the CPU draws them, where they have been made ready beside the frames.
+    /// The same for the CPU renderer, if a thread beside the frames has prepared them.
     pub pieces: Option<Prepared>,
 }
 

@@ -53,7 +53,7 @@ pub enum LoadError {
         /// The file.
         path: PathBuf,
     },
-    /// A line of a text file does not hold what belongs there.
+    /// A line of a text file is malformed.
     #[error("{}:{line}: {found}; {expected} expected", path.display())]
     Line {
         /// The file.
@@ -65,7 +65,7 @@ pub enum LoadError {
         /// The text that was expected, with its verb.
         expected: String,
     },
-    /// An element of a glTF file does not hold what belongs there.
+    /// An element of a glTF file is invalid.
     #[error("{}: {element}: {found}; {expected} expected", path.display())]
     Element {
         /// The file.

@@ -60,7 +60,6 @@ pub enum Normals {
 /// cubic, each at four tessellations, regular, with jittered vertices and with slivers. Of these 60 meshes it has the
 /// smallest mean angle to the true normals on 44 and the smallest worst angle on 32. Relative to the best on each mesh,
 /// in the median:
-/// mesh, in the median:
 ///
 /// | | uniform | area | angle | Max |
 /// |---|--:|--:|--:|--:|

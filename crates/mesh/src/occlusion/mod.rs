@@ -113,7 +113,7 @@ impl OcclusionImage {
         &self.shares
     }
 
-    /// How many texels have their centre on the mesh. The others continue what is next to them.
+    /// How many texels have their centre on the mesh. The others continue their neighbours.
     pub fn baked(&self) -> usize {
         self.baked
     }

@@ -3,7 +3,7 @@
 use halfway_mesh::{GltfMaps, MtlMaps, SourceChannel, SourceLevels, SourceMap, SourceMaterial, SourceWrap};
 use halfway_texture::{Channel, LevelFilter, MapKind, Sampling, TexelFilter, Texture, UvTransform, Wrap};
 
-/// The images that a material refers to, and what each says of it.
+/// The images that a material refers to, each with its kind.
 pub(crate) fn maps(source: &SourceMaterial) -> Vec<(MapKind, &SourceMap)> {
     let all = match source {
         SourceMaterial::Mtl(mtl) => {

@@ -13,8 +13,9 @@ pub struct ModelMaterial {
     pub material: Material,
     /// Both where the file says double-sided, else the front.
     pub faces: Faces,
-    /// The effect of its opacity: glTF's `alphaMode` and `alphaCutoff`. An MTL file cannot ask for blending; whoever shows it
-    /// has to. With a `map_d` it is cut out at 0.5, since such images mostly cut something out; else opaque.
+    /// The effect of its opacity: glTF's `alphaMode` and `alphaCutoff`. An MTL file cannot ask for blending, so the
+    /// caller has to; with a `map_d` the surface is cut out at 0.5, since such images mostly cut something out, else it
+    /// is opaque.
     pub alpha: AlphaMode,
 }
 

@@ -10,7 +10,7 @@ use super::warning::Warning;
 /// 1/8 and 7/8 become 0.13 and 0.88.
 const OPACITY_SLACK: f32 = 0.015;
 
-/// The material that an MTL file describes, and what had to be changed on the way.
+/// The material that an MTL file describes, with a warning for each change.
 ///
 /// The format is Wavefront's (Alias|Wavefront, *File Formats*, version 4.2, 1995: Material Library File). Its highlight
 /// is `Ks·(H·Hj)^Ns` with the halfway vector, so it is exact under

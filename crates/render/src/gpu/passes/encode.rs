@@ -54,8 +54,8 @@ pub(crate) fn draw(
             return;
         };
         let left_out = scene.record(&mut pass);
-        let unsaid = unsaid(left_out, &report);
-        report.errors.extend(unsaid);
+        let unexplained = unexplained(left_out, &report);
+        report.errors.extend(unexplained);
         drop(pass);
         finish(&mut encoder, (&list, &target), frame, last);
     }
@@ -144,7 +144,7 @@ fn begin<'a>(
 }
 
 /// The error of omitted draws, if no other error explains them.
-fn unsaid(draws: u32, report: &FrameReport) -> Option<RenderError> {
+fn unexplained(draws: u32, report: &FrameReport) -> Option<RenderError> {
     (draws > 0 && report.errors.is_empty()).then_some(RenderError::LeftOut { draws })
 }
 
@@ -196,8 +196,8 @@ pub fn encode_frame(world: &World, encoder: &mut wgpu::CommandEncoder) -> Result
     let left_out = scene.record(&mut pass);
     drop(pass);
     finish(encoder, (scene.list, target), frame, None);
-    let unsaid = world.get_resource::<FrameReport>().and_then(|report| unsaid(left_out, report));
-    unsaid.map_or(Ok(()), Err)
+    let unexplained = world.get_resource::<FrameReport>().and_then(|report| unexplained(left_out, report));
+    unexplained.map_or(Ok(()), Err)
 }
 
 #[cfg(test)]
