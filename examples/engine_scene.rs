@@ -137,9 +137,8 @@ impl Engine {
             cache: None,
         });
         // The same camera as halfway's, with the same near plane: depth is near over distance.
-        let y = 1.0 / (0.5 * FIELD_OF_VIEW).tan();
-        let x = y * size.y as f32 / size.x as f32;
-        let clip_from_eye = Mat4::from_cols(x * Vec4::X, y * Vec4::Y, -Vec4::W, NEAR * Vec4::Z);
+        let lens = Projection::perspective(FIELD_OF_VIEW).with_near(NEAR).lens(size.to_array());
+        let clip_from_eye = Mat4::from_cols_array_2d(&lens.matrix());
         let world_from_eye = Transform::from_translation(EYE).looking_at(AT, Vec3::Y).to_matrix();
         let matrix = clip_from_eye * world_from_eye.inverse();
         let bytes: Vec<u8> = matrix.to_cols_array().into_iter().flat_map(f32::to_ne_bytes).collect();

@@ -149,7 +149,7 @@ fn the_wheel_zooms_an_orthographic_picture() {
     let mut stage = Stage::new(16);
     let projection = Projection::orthographic(4.0).with_near(1.0);
     stage.app.world_mut().entity_mut(stage.camera).insert(Camera { projection, ..Camera::default() });
-    let shown = |stage: &Stage| stage.app.world().get::<Camera>(stage.camera).unwrap().projection;
+    let shown = |stage: &Stage| stage.app.world().get::<Camera>(stage.camera).expect("a camera").projection;
     stage.wheel(MouseScrollUnit::Line, 10.0);
     let nearer = 5.0 * (-1.0_f32).exp();
     assert!(near(shown(&stage).height_at(9.0), 4.0 * (-1.0_f32).exp()), "{:?}", shown(&stage));

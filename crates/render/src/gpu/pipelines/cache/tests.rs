@@ -124,7 +124,7 @@ fn a_build_that_panics_fails_alone() {
         assert!(wanted.draw != numbered(3), "as a driver may");
         build(&shared, &shaders, wanted)
     };
-    pipelines.background = Background::Running(Builder::with_build(build).unwrap());
+    pipelines.background = Background::Running(Builder::with_build(build).expect("a thread"));
     // Both are requested; from then on the generic one replaces the one that panics.
     let (.., report) = frame(&mut pipelines, &gpu, Compile::Beside, &[numbered(3), numbered(4)]);
     let mut errors = report.errors;
