@@ -25,6 +25,7 @@ macro_rules! meaning {
 ///
 /// With d the direction toward the sky, it adds kd·lerp(ground, sky, (1 + n·d)/2) to the diffuse term. There is no
 /// highlight, no falloff and no cone, and no side is black: a back face is lit with −n.
+/// An occlusion image does not dim it, as it does an environment.
 ///
 /// The sky is along the local +Y axis of the entity's `GlobalTransform`; its translation does nothing.
 ///
