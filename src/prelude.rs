@@ -24,7 +24,8 @@ pub use halfway_record::output::SavePicture;
 #[cfg(feature = "wgpu")]
 pub use halfway_render::Compile;
 pub use halfway_render::{
-    FrameReport, Headless, Picture, Pixels, RenderError, RenderPlugin, RenderSet, render_picture, take_picture,
+    FrameReport, Headless, Picture, Pixels, Quantity, QuantityImage, QuantityValues, RenderError, RenderPlugin,
+    RenderSet, Surfaces, render_picture, take_picture, take_quantities,
 };
 pub use halfway_scene::import::{ModelMaterial, model_light};
 pub use halfway_scene::{ModelParts, ModelRoot, spawn_model};

@@ -41,6 +41,7 @@ mod render {
     mod plugins;
     mod policies;
     mod properties;
+    mod quantities;
     mod random;
     mod samples;
     mod scene;

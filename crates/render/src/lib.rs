@@ -15,6 +15,7 @@ mod logged;
 mod pending;
 mod picture;
 mod plugin;
+mod quantities;
 mod replaced;
 
 pub use adapter::Adapter;
@@ -48,6 +49,7 @@ pub use headless::Headless;
 pub use pending::{PendingPicture, render_picture, take_picture};
 pub use picture::{Picture, Pixels};
 pub use plugin::RenderPlugin;
+pub use quantities::{Quantity, QuantityImage, QuantityValues, SurfacePoint, Surfaces, pick, take_quantities};
 /// The renderer's version of wgpu, which surfaces have to use.
 #[cfg(feature = "wgpu")]
 pub use wgpu;

@@ -46,19 +46,15 @@ impl Default for RenderPlugin {
 
 impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
-        app.add_plugins(FramePlugin { schedule: self.schedule })
-            .insert_resource(DrawnIn(self.schedule))
+        add_drawers(app, self.schedule);
+        app.insert_resource(DrawnIn(self.schedule))
             .init_resource::<Logged>()
             .init_resource::<PictureAge>()
             .add_systems(First, PictureAge::grow)
-            .add_systems(self.schedule, PictureAge::renew.in_set(RenderSet::Deliver))
-            .init_resource::<AdapterChoice>()
-            .init_resource::<Headless>()
             .add_systems(
                 self.schedule,
                 (
-                    headless::measure.in_set(RenderSet::View).before(ReadCamera),
-                    (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
+                    PictureAge::renew.in_set(RenderSet::Deliver),
                     (
                         logged::log_errors,
                         logged::log_ineffective_opacity,
@@ -68,10 +64,21 @@ impl Plugin for RenderPlugin {
                         .after(RenderSet::Deliver),
                 ),
             );
-        cpu::add(app, self.schedule);
-        #[cfg(feature = "wgpu")]
-        gpu::plugin::add(app, self.schedule);
     }
+}
+
+/// Adds the stages of a frame, for both renderers.
+pub(crate) fn add_drawers(app: &mut App, schedule: InternedScheduleLabel) {
+    app.add_plugins(FramePlugin { schedule }).init_resource::<AdapterChoice>().init_resource::<Headless>().add_systems(
+        schedule,
+        (
+            headless::measure.in_set(RenderSet::View).before(ReadCamera),
+            (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
+        ),
+    );
+    cpu::add(app, schedule);
+    #[cfg(feature = "wgpu")]
+    gpu::plugin::add(app, schedule);
 }
 
 /// Opens an adapter for headless pictures unless one is open. A failure is reported and retried in every frame, so that

@@ -1,0 +1,203 @@
+//! The surface that each pixel shows, and pictures of its properties, against the oracle's and closed forms.
+
+use crate::render::compare::Failures;
+use crate::render::scene::{Map, Scene, Thing, glowing, rotated, scaled};
+use crate::render::sides::hemisphere;
+use crate::render::stage::Stage;
+use bevy_math::{DVec2, DVec3};
+use halfway::lighting::Choices;
+use halfway::prelude::*;
+use halfway::reference::Oracle;
+use halfway::render::{Quantity, QuantityValues, Surfaces, pick, take_quantities};
+use halfway::texture::TexelImage;
+use std::collections::HashSet;
+
+const SIZE: UVec2 = UVec2::new(96, 72);
+
+/// Instances of one mesh, one of many patches, mirrored and sheared ones, a bowl seen from both sides, a mask, and a
+/// pane before them.
+fn scene(camera: Camera) -> Scene {
+    let ball = UvSphere::new(0.4, 12, 6);
+    let fine = Thing::new(UvSphere::new(0.7, 160, 80)).at(Transform::from_xyz(-1.0, 0.6, -1.0));
+    let holes = TexelImage::from_fn(8, 8, |x, y| [f32::from((x / 2 + y / 2) % 2 == 0); 4]).expect("an image");
+    let mut grate = Thing::square(Vec3::new(0.9, -0.4, 0.9), Vec3::new(-0.2, 0.1, 1.0), 1.1);
+    grate.mask = Some(0.5);
+    grate.maps = vec![(MapKind::Opacity, Map::new(holes))];
+    let scene = Scene::seen_from(Vec3::new(0.3, 0.9, 4.2), Vec3::ZERO)
+        .with(Thing::new(ball).at(Transform::from_xyz(0.9, 0.7, -0.4)))
+        .with(fine)
+        .with(Thing::new(ball).frames([scaled(1.3, 0.6, 1.0), rotated(0.3, 0.4, 0.9)]))
+        .with(Thing::new(ball).at(Transform::from_xyz(0.2, -0.8, 0.4).with_scale(Vec3::new(-1.2, 0.8, 1.0))))
+        .with(Thing::new(hemisphere(16, 8)).at(Transform::from_xyz(-1.1, -0.6, 0.2)).faces(Faces::Both))
+        .with(grate)
+        .with(Thing::square(Vec3::new(-0.4, 0.0, 1.6), Vec3::Z, 0.5).blended(0.3));
+    Scene { camera, ..scene }
+}
+
+/// The nearest surface by the oracle, where all points about the middle of the pixel show the same triangle.
+fn expected(oracle: &Oracle, [x, y]: [u32; 2], reach: f64) -> Option<Option<halfway::reference::Nearest>> {
+    let [x, y] = [x, y].map(|at| f64::from(at) + 0.5);
+    let middle = oracle.probe(x, y).nearest;
+    let id = |nearest: Option<halfway::reference::Nearest>| nearest.map(|it| (it.object, it.triangle));
+    let around = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
+    let same = |[dx, dy]: [f64; 2]| id(oracle.probe(x + reach * dx, y + reach * dy).nearest) == id(middle);
+    around.into_iter().all(same).then_some(middle)
+}
+
+#[test]
+fn surfaces_are_those_that_the_oracle_finds() {
+    let cameras = [
+        ("perspective", Camera::default()),
+        ("orthographic", Camera::orthographic(3.4)),
+        ("four samples", Camera { samples: Samples::Four, ..Camera::default() }),
+    ];
+    let mut failures = Failures::default();
+    for (name, camera) in cameras {
+        let mut stage = Stage::new(SIZE.x, SIZE.y);
+        stage.pixels(Pixels::Byte);
+        stage.set(&scene(camera));
+        // The picture is drawn with levels of detail, the numbers are those of the mesh.
+        stage.world().insert_resource(ViewTolerance(Tolerance { pixels: 2.0, ..Tolerance::EXACT }));
+        stage.frame();
+        assert_eq!(stage.report().errors, []);
+        let reach = 1.5 / f64::from(1 << stage.grid_bits());
+        let oracle = stage.oracle();
+        let surfaces = Surfaces::take(stage.world()).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let (mut compared, mut empty, mut seen) = (0, 0, HashSet::new());
+        for (x, y) in (0..SIZE.y).flat_map(|y| (0..SIZE.x).map(move |x| (x, y))) {
+            let Some(expected) = expected(&oracle, [x, y], reach) else { continue };
+            compared += 1;
+            let found = surfaces.at(x, y);
+            let Some((expected, found)) = expected.zip(found) else {
+                failures.unless(expected.is_none() && found.is_none(), || {
+                    format!("{name}, ({x}, {y}): {found:?} instead of {expected:?}")
+                });
+                empty += 1;
+                continue;
+            };
+            seen.insert(found.entity);
+            let same = (expected.object, expected.triangle) == (found.entity, Some(found.triangle))
+                && expected.front == found.front
+                && (expected.depth - found.depth).abs() <= 1e-6 * expected.depth
+                && (expected.position - found.position).length() <= 1e-6 * expected.depth;
+            failures.unless(same, || format!("{name}, ({x}, {y}): {found:?} instead of {expected:?}"));
+        }
+        // The bowl and the fine sphere are small triangles.
+        failures.unless(compared > 5000 && empty > 1000, || format!("{name}: {compared} compared, {empty} empty"));
+        failures.unless(seen.len() == 7, || format!("{name}: {} objects are seen", seen.len()));
+    }
+    failures.finish();
+}
+
+#[test]
+fn a_point_is_what_its_plane_says() {
+    let mut stage = Stage::new(40, 30);
+    // A square of 8 at z = −5, seen from the origin: its uv run from the left to the right and upwards.
+    let scene = Scene::in_eye_space().with(Thing::square(Vec3::new(0.0, 0.0, -5.0), Vec3::Z, 8.0));
+    let square = stage.set(&scene)[0];
+    stage.frame();
+    let surfaces = Surfaces::take(stage.world()).expect("surfaces");
+    let half = (45_f64.to_radians() / 2.0).tan();
+    for (x, y) in [(0, 0), (19, 14), (39, 29), (7, 22)] {
+        let at = DVec2::new(f64::from(x) - 19.5, 14.5 - f64::from(y)) / 15.0 * half;
+        let position = 5.0 * at.extend(-1.0);
+        let found = surfaces.at(x, y).expect("the square");
+        assert_eq!((found.entity, found.object, found.part, found.front), (square, 1, 1, true));
+        // The camera's angle is an f32.
+        assert!((found.position - position).length() < 1e-6, "{found:?}");
+        assert!((found.depth - 5.0).abs() < 1e-6 && (found.distance - position.length()).abs() < 1e-6);
+        assert!((found.normal - DVec3::Z).length() < 1e-6 && (found.face_normal - DVec3::Z).length() < 1e-6);
+        assert!((found.barycentrics.element_sum() - 1.0).abs() < 1e-12);
+    }
+    assert_eq!(surfaces.at(40, 0), None);
+    assert_eq!(pick(stage.world(), 19, 14).expect("surfaces"), surfaces.at(19, 14));
+}
+
+#[test]
+fn numbers_count_objects_and_their_parts_hidden_ones_included() {
+    let mut stage = Stage::new(60, 20);
+    let square = |x: f32| Thing::square(Vec3::new(x, 0.0, -5.0), Vec3::Z, 1.0);
+    let things =
+        stage.set(&[-2.0, -1.0, 0.0, 1.0, 2.0].map(square).into_iter().fold(Scene::in_eye_space(), Scene::with));
+    // The first, the second and the fourth hang on one root; the third is hidden.
+    let world = stage.world();
+    let root = world.spawn((Transform::default(), Visibility::default())).id();
+    world.entity_mut(root).add_children(&[things[0], things[1], things[3]]);
+    world.entity_mut(things[2]).insert(Visibility::Hidden);
+    stage.frame();
+    let quantities = [Quantity::Id, Quantity::Part, Quantity::Triangle, Quantity::Coverage];
+    let images = take_quantities(stage.world(), &quantities).expect("pictures");
+    let row = |image: usize| -> Vec<u32> {
+        let middle = 10 * 60..11 * 60;
+        let mut row = match &images[image].values {
+            QuantityValues::Numbers(numbers) => numbers[middle].to_vec(),
+            QuantityValues::Floats(floats) => floats[middle].iter().map(|&share| share as u32).collect(),
+        };
+        row.dedup();
+        row
+    };
+    assert_eq!(row(3), [0, 1, 0, 1, 0]);
+    assert_eq!(row(0), [0, 1, 0, 1, 3, 0]);
+    assert_eq!(row(1), [0, 1, 2, 0, 3, 1, 0]);
+    assert!(row(2).iter().all(|&triangle| triangle <= 2));
+    stage.world().entity_mut(root).despawn();
+}
+
+#[test]
+fn albedo_and_coverage_are_those_of_the_materials() {
+    let mut stage = Stage::new(32, 24);
+    let mut red = Thing::square(Vec3::new(0.0, 0.0, -5.0), Vec3::Z, 2.0);
+    red.material = Material { diffuse: LinearRgba::rgb(0.75, 0.25, 0.5), ..glowing(3.0, 3.0, 3.0) };
+    let pane = Thing::square(Vec3::new(0.0, 1.0, -4.0), Vec3::Z, 1.5).blended(0.25);
+    let pane = Thing { material: Material { diffuse: LinearRgba::BLACK, ..pane.material }, ..pane };
+    let blends = {
+        stage.set(&Scene::in_eye_space());
+        stage.frame();
+        stage.blends_floats()
+    };
+    let scene = Scene::in_eye_space().ambient(0.3).with(red);
+    stage.set(&if blends { scene.with(pane) } else { scene });
+    stage.frame();
+    let images = take_quantities(stage.world(), &[Quantity::Albedo, Quantity::Coverage]).expect("pictures");
+    let at = |image: usize, x: usize, y: usize| -> Vec<f32> {
+        let channels = images[image].quantity.channels().len();
+        let QuantityValues::Floats(values) = &images[image].values else { panic!("numbers") };
+        values[channels * (32 * y + x)..][..channels].to_vec()
+    };
+    assert_eq!((at(0, 16, 14), at(1, 16, 14)), (vec![0.75, 0.25, 0.5], vec![1.0]));
+    assert_eq!((at(0, 1, 1), at(1, 1, 1)), (vec![0.0; 3], vec![0.0]));
+    if blends {
+        // Only the pane is in the upper third; where it covers the square it takes a quarter of its colour.
+        assert_eq!((at(0, 16, 4), at(1, 16, 4)), (vec![0.0; 3], vec![0.25]));
+        assert_eq!((at(0, 16, 9), at(1, 16, 9)), (vec![0.5625, 0.1875, 0.375], vec![1.0]));
+    }
+}
+
+#[test]
+fn every_quantity_has_a_picture_of_its_size_and_the_frame_stays_as_it_was() {
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    let blended = scene(Camera::default());
+    let things = blended.things.iter().filter(|thing| !thing.blend).cloned().collect();
+    stage.set(&Scene { things, ..blended });
+    let before = stage.float();
+    let all: Vec<Quantity> = Quantity::CHOICES.iter().map(|choice| choice.value).collect();
+    for image in take_quantities(stage.world(), &all).expect("pictures") {
+        let count = (SIZE.x * SIZE.y) as usize * image.quantity.channels().len();
+        match image.values {
+            QuantityValues::Floats(floats) => {
+                assert_eq!(floats.len(), count);
+                assert!(floats.iter().all(|value| value.is_finite()), "{:?}", image.quantity);
+                assert!(floats.iter().any(|value| *value != 0.0), "{:?}", image.quantity);
+            }
+            QuantityValues::Numbers(numbers) => assert_eq!(numbers.len(), count),
+        }
+    }
+    assert_eq!(stage.float(), before);
+}
+
+#[test]
+fn there_are_no_surfaces_before_the_first_frame() {
+    let mut stage = Stage::new(8, 6);
+    let error = Surfaces::take(stage.world()).err().map(|error| error.to_string()).unwrap_or_default();
+    assert!(error.contains("draw a frame"), "{error}");
+}
