@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::Args;
+use halfway::lighting::Choices;
 use halfway::prelude::*;
 use halfway::record::{Recording, ReferenceDrawing, record, record_with};
 use halfway::reference::Mode;
@@ -33,6 +34,9 @@ pub(crate) struct RenderArgs {
     /// Also write a contact sheet of up to 16 of the frames, a PNG
     #[arg(long, value_name = "FILE")]
     contact_sheet: Option<PathBuf>,
+    /// Also write what the picture shows beside colour, each quantity to a .exr or .png; in one .exr they are layers
+    #[arg(long, value_name = "QUANTITY=FILE,…", value_delimiter = ',', value_parser = parse_quantity, conflicts_with = "reference")]
+    also: Vec<(Quantity, PathBuf)>,
     /// Draw with the reference renderer: every pixel in 64-bit arithmetic on the CPU, without a graphics adapter
     #[arg(long, conflicts_with = "adapter")]
     reference: bool,
@@ -103,6 +107,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         size,
         bits: args.bits,
         contact_sheet: args.contact_sheet.clone(),
+        also: args.also.clone(),
         ..Recording::new(args.output.clone())
     };
     let drawer = Drawer::choose(args)?;
@@ -123,9 +128,26 @@ fn parse_frames(text: &str) -> Result<Range<u32>, String> {
         .ok_or_else(|| format!("expected A..B with A below B and B at most {MOST}, such as 0..120"))
 }
 
+fn parse_quantity(text: &str) -> Result<(Quantity, PathBuf), String> {
+    let keys = || Quantity::CHOICES.iter().map(|choice| choice.key.replace('_', "-")).collect::<Vec<_>>().join(", ");
+    let expected = || format!("expected QUANTITY=FILE, such as depth=depth.exr, of the quantities {}", keys());
+    let (key, file) = text.split_once('=').filter(|(_, file)| !file.is_empty()).ok_or_else(expected)?;
+    let quantity = Quantity::from_key(&key.replace('-', "_")).ok_or_else(expected)?;
+    Ok((quantity, file.into()))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::parse_frames;
+    use super::*;
+
+    #[test]
+    fn quantities_with_their_files() {
+        assert_eq!(parse_quantity("depth=out/d.exr"), Ok((Quantity::Depth, "out/d.exr".into())));
+        assert_eq!(parse_quantity("eye-normal=n.png"), Ok((Quantity::EyeNormal, "n.png".into())));
+        for bad in ["", "depth", "depth=", "Depth=d.exr", "=d.exr", "colour=c.exr"] {
+            assert!(parse_quantity(bad).is_err_and(|error| error.contains("depth, distance")), "{bad}");
+        }
+    }
 
     #[test]
     fn frame_ranges() {

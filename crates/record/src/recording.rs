@@ -10,10 +10,13 @@ use bevy_math::UVec2;
 use bevy_time::TimeUpdateStrategy;
 use halfway_lighting::{Camera, Encoding, Intensity};
 use halfway_reference::OracleError;
-use halfway_render::{Headless, Picture, Pixels, RenderError, render_picture};
+use halfway_render::{Headless, Picture, Pixels, Quantity, RenderError, render_picture, take_quantities};
 use thiserror::Error;
 
-use crate::output::{AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, write_picture};
+use crate::output::{
+    AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, check_quantity_file, write_picture,
+    write_quantities,
+};
 
 /// Makes the target a texture of `size` pixels. Part of `HalfwayPlugins::headless`.
 ///
@@ -70,6 +73,9 @@ pub struct Recording {
     pub rate: u16,
     /// The file for a contact sheet of up to 16 of the frames, if any.
     pub contact_sheet: Option<PathBuf>,
+    /// Quantities to write beside the picture, each with its file, `.exr` or `.png` ([`write_quantities`]); those with
+    /// one EXR share it. Where the path of a sequence has a `{}`, these have one, too. Default none.
+    pub also: Vec<(Quantity, PathBuf)>,
 }
 
 impl Recording {
@@ -78,7 +84,7 @@ impl Recording {
 
     /// Records the first frame, at 1280 × 720, to `path`.
     pub fn new(path: PathBuf) -> Self {
-        Self { path, frames: 0..1, size: Self::SIZE, bits: None, rate: 30, contact_sheet: None }
+        Self { path, frames: 0..1, size: Self::SIZE, bits: None, rate: 30, contact_sheet: None, also: Vec::new() }
     }
 
     /// Whether the frames go into one animated PNG.
@@ -91,11 +97,26 @@ impl Recording {
     }
 
     fn path_of(&self, frame: u32) -> PathBuf {
-        if self.is_sequence() {
-            PathBuf::from(self.path.to_string_lossy().replace("{}", &format!("{frame:04}")))
-        } else {
-            self.path.clone()
+        numbered(&self.path, frame)
+    }
+
+    /// Writes the quantities of the newest frame.
+    fn write_quantities(&self, app: &mut App, frame: u32) -> Result<(), RecordError> {
+        if self.also.is_empty() {
+            return Ok(());
         }
+        let quantities: Vec<_> = self.also.iter().map(|&(quantity, _)| quantity).collect();
+        let files = self.also.iter().map(|(_, file)| numbered(file, frame));
+        let images: Vec<_> = take_quantities(app.world_mut(), &quantities)?.into_iter().zip(files).collect();
+        Ok(write_quantities(&images)?)
+    }
+}
+
+/// A file's name, with the frame's number in place of a `{}`.
+fn numbered(path: &Path, frame: u32) -> PathBuf {
+    match path.to_string_lossy() {
+        name if name.contains("{}") => PathBuf::from(name.replace("{}", &format!("{frame:04}"))),
+        _ => path.to_owned(),
     }
 }
 
@@ -178,6 +199,12 @@ pub enum RecordError {
     /// The contact sheet has the name of the animation, or of a frame.
     #[error("{}: is to be both the contact sheet and a picture; expected two names", .0.display())]
     SheetOverFrame(PathBuf),
+    /// A quantity has the name of the picture.
+    #[error("{}: is to be both a picture and a quantity; expected two names", .0.display())]
+    QuantityOverFrame(PathBuf),
+    /// Several frames are to be written into one file of a quantity.
+    #[error("{}: is to hold a quantity of several frames; expected a name with {{}}, which becomes the frame's number", .0.display())]
+    OneFileForAll(PathBuf),
     /// There is no frame in the range.
     #[error("frames {}..{}: the range is empty; expected A..B with A below B", .0.start, .0.end)]
     NoFrames(Range<u32>),
@@ -249,6 +276,7 @@ pub fn record_with(
     for number in recording.frames.clone() {
         let picture = draw(app, FrameToDraw { number, size: recording.size, pixels })?;
         sink.write(number, &picture, encoding(app))?;
+        recording.write_quantities(app, number)?;
         let done = number - recording.frames.start + 1;
         if progress(done, recording.frames.len() as u32) == Continue::No {
             return Err(RecordError::Stopped(number));
@@ -320,6 +348,15 @@ impl<'a> Sink<'a> {
             }
         } else {
             PictureFormat::from_path(&recording.path_of(0), recording.bits)?;
+        }
+        for (quantity, file) in &recording.also {
+            check_quantity_file(*quantity, file)?;
+            if recording.frames.len() > 1 && !file.to_string_lossy().contains("{}") {
+                return Err(RecordError::OneFileForAll(file.clone()));
+            }
+            if recording.frames.clone().any(|frame| is_same_file(&recording.path_of(frame), &numbered(file, frame))) {
+                return Err(RecordError::QuantityOverFrame(file.clone()));
+            }
         }
         if let Some(sheet) = &recording.contact_sheet {
             PictureFormat::from_path(sheet, Some(8))?;

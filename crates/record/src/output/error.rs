@@ -37,6 +37,30 @@ pub enum OutputError {
         /// The file.
         file: PathBuf,
     },
+    /// A quantity that a PNG cannot hold.
+    #[error("{}: a PNG cannot hold a {quantity} exactly; expected .exr", file.display())]
+    NotForPng {
+        /// The file.
+        file: PathBuf,
+        /// The quantity.
+        quantity: &'static str,
+    },
+    /// A number that 16 bits do not hold.
+    #[error("{}: the {quantity} {number} is more than 65535, which is the most that a PNG holds; expected .exr", file.display())]
+    NumberTooLarge {
+        /// The file.
+        file: PathBuf,
+        /// The quantity.
+        quantity: &'static str,
+        /// The number.
+        number: u32,
+    },
+    /// Two quantities in one file that cannot hold both.
+    #[error("{}: a PNG holds one quantity; expected a file for each, or one .exr for all", file.display())]
+    Twice {
+        /// The file.
+        file: PathBuf,
+    },
     /// The picture has no pixels.
     #[error("{}: the picture is {width} × {height} pixels; expected at least 1 × 1", file.display())]
     Empty {

@@ -24,6 +24,7 @@ mod error;
 mod format;
 mod partial;
 mod picture;
+mod quantities;
 
 pub use animation::{AnimationWriter, FrameDelay};
 pub use contact_sheet::ContactSheet;
@@ -32,6 +33,7 @@ pub use error::OutputError;
 pub use format::PictureFormat;
 pub use partial::write_text;
 pub use picture::{SavePicture, write_picture};
+pub use quantities::{check_quantity_file, write_quantities};
 
 #[cfg(test)]
 mod tests;

@@ -122,18 +122,23 @@ pub(super) fn png_encoder<W: Write>(
     encoder.set_depth(depth);
     encoder.validate_sequence(true);
     if encoding == Encoding::Srgb {
-        encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-        // For readers that do not know the sRGB chunk: the values that the PNG specification gives for it.
-        encoder.set_source_gamma(png::ScaledFloat::from_scaled(45_455));
-        let scaled = |x: u32, y: u32| (png::ScaledFloat::from_scaled(x), png::ScaledFloat::from_scaled(y));
-        encoder.set_source_chromaticities(png::SourceChromaticities {
-            white: scaled(31_270, 32_900),
-            red: scaled(64_000, 33_000),
-            green: scaled(30_000, 60_000),
-            blue: scaled(15_000, 6_000),
-        });
+        tagged(&mut encoder);
     }
     encoder
+}
+
+/// Tags a picture as sRGB.
+pub(super) fn tagged<W: Write>(encoder: &mut png::Encoder<'_, W>) {
+    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    // For readers that do not know the sRGB chunk: the values that the PNG specification gives for it.
+    encoder.set_source_gamma(png::ScaledFloat::from_scaled(45_455));
+    let scaled = |x: u32, y: u32| (png::ScaledFloat::from_scaled(x), png::ScaledFloat::from_scaled(y));
+    encoder.set_source_chromaticities(png::SourceChromaticities {
+        white: scaled(31_270, 32_900),
+        red: scaled(64_000, 33_000),
+        green: scaled(30_000, 60_000),
+        blue: scaled(15_000, 6_000),
+    });
 }
 
 fn write_exr(file: &Path, image: &Rgba32FImage) -> Result<(), OutputError> {
