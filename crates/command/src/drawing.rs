@@ -9,6 +9,7 @@ use halfway::prelude::{Intensity, Reflectance, Shading, UVec2};
 use halfway::record::parse_size;
 
 use crate::adapters::AdapterArgs;
+use crate::edges::EdgeArgs;
 use crate::tolerance::ToleranceArgs;
 
 /// How the scene is drawn; options override the scene file.
@@ -33,6 +34,8 @@ pub(crate) struct DrawingArgs {
     pub(crate) intensity: Option<Intensity>,
     #[command(flatten)]
     pub(crate) tolerance: ToleranceArgs,
+    #[command(flatten)]
+    pub(crate) edges: EdgeArgs,
     #[command(flatten)]
     pub(crate) adapter: AdapterArgs,
 }

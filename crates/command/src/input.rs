@@ -48,6 +48,10 @@ impl SceneInput {
             scene.tolerance = Some(tolerance);
             scene.objects.iter_mut().for_each(|object| object.tolerance = None);
         }
+        if let Some(edges) = args.edges.given() {
+            scene.edges = Some(edges.into());
+            scene.objects.iter_mut().for_each(|object| object.edges = None);
+        }
         if let Some(samples) = args.samples {
             scene.samples = samples;
         }

@@ -8,6 +8,7 @@ mod chart;
 mod compare;
 mod convert;
 mod drawing;
+mod edges;
 mod failure;
 mod figures;
 mod info;

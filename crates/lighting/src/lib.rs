@@ -73,6 +73,7 @@ mod choices;
 #[cfg(not(feature = "ecs"))]
 mod color;
 mod direction;
+mod edges;
 pub mod equations;
 mod falloff;
 mod field;
@@ -112,6 +113,7 @@ pub use choices::{Choice, Choices};
 #[cfg(not(feature = "ecs"))]
 pub use color::LinearRgba;
 pub use direction::rotation_along;
+pub use edges::{Edges, HiddenEdges, WhichEdges};
 pub use field::{Described, Field, FieldPlace, FieldValue};
 pub use frequency::Frequency;
 pub use intensity::Intensity;

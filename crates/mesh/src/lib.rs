@@ -32,6 +32,7 @@ pub use bounds::Bounds;
 #[cfg(feature = "ecs")]
 pub use component::{Mesh3d, MeshPlugin, SpawnOrder};
 #[cfg(feature = "formats")]
+pub use edges::MeshEdge;
 pub use files::{
     Format, LoadError, LoadOptions, LoadProgress, WriteError, load, load_bytes, load_with, write, write_quantised,
 };

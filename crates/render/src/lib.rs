@@ -11,6 +11,7 @@ mod cpu;
 #[cfg(feature = "wgpu")]
 mod gpu;
 mod headless;
+mod lines;
 mod logged;
 mod pending;
 mod picture;

@@ -3,6 +3,7 @@
 use crate::cpu::canvas::{Canvas, CanvasTarget};
 #[cfg(feature = "wgpu")]
 use crate::gpu::{attachments::Target, device::Gpu, read_back::ReadBack};
+use crate::lines;
 use crate::picture::Picture;
 use bevy_app::App;
 use bevy_ecs::prelude::{ResMut, Resource, World};
@@ -85,7 +86,7 @@ impl PendingPicture {
 /// The frame's first error, or why its picture could not be read back.
 pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
     app.update();
-    picture_of_frame(app.world())
+    picture_of_frame(app.world_mut())
 }
 
 /// Draws the world as it is now and waits for its picture. Only the schedule that draws runs: no `Startup`, no
@@ -162,11 +163,15 @@ impl PictureAge {
     }
 }
 
-fn picture_of_frame(world: &World) -> Result<Picture, RenderError> {
+fn picture_of_frame(world: &mut World) -> Result<Picture, RenderError> {
     if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
         return Err(error.clone());
     }
-    PendingPicture::request(world)?.wait()
+    let mut picture = PendingPicture::request(world)?.wait()?;
+    if lines::are_there(world) {
+        lines::draw_over(world, &mut picture)?;
+    }
+    Ok(picture)
 }
 
 #[cfg(test)]

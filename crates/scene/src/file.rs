@@ -9,6 +9,7 @@ use bevy_color::ColorToComponents;
 use halfway_lighting::{Camera, Encoding, GlobalAmbient, Intensity, Range, Reflectance, Shading, Tolerance, Viewer};
 
 use crate::check::{Check, KeyProblem, Limits, Within};
+use crate::edges::EdgesEntry;
 use crate::entry::{Entry, Written};
 use crate::environment::EnvironmentEntry;
 use crate::error::SceneError;
@@ -48,6 +49,8 @@ keys! {
         tolerance: Option<Tolerance> = None,
         /// The reflectance of objects that name none.
         reflectance: Reflectance = Reflectance::default(),
+        /// Lines along the edges of objects that name none; null: no lines.
+        edges: Option<EdgesEntry> = None,
         /// Light from all directions; null or left out: none.
         environment: Option<EnvironmentEntry> = None,
         /// The camera; null or left out: one that frames everything.

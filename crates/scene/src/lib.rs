@@ -6,6 +6,7 @@
 mod check;
 mod defaults;
 mod described;
+mod edges;
 mod entry;
 mod environment;
 mod error;
@@ -32,6 +33,7 @@ mod transform;
 mod view;
 
 pub use defaults::{default_lights, framing_camera};
+pub use edges::EdgesEntry;
 pub use environment::EnvironmentEntry;
 pub use error::SceneError;
 pub use file::SceneFile;

@@ -4,6 +4,7 @@ use halfway_lighting::{Faces, Range, Reflectance, Shading, Tolerance, VertexColo
 use halfway_mesh::Normals;
 
 use crate::check::Limits;
+use crate::edges::EdgesEntry;
 use crate::keys::{Object, keys};
 use crate::maps::MapsEntry;
 use crate::material::MaterialEntry;
@@ -41,6 +42,8 @@ keys! {
         maps: Option<MapsEntry> = None,
         /// The solid that the object is cut from, whose color multiplies ambient and diffuse light; null: nothing.
         solid: Option<SolidEntry> = None,
+        /// Lines along the edges of the mesh; null: the scene's.
+        edges: Option<EdgesEntry> = None,
         [left out]
         /// Which sides are shown. Left out: `front`, or `both` for parts with a double-sided material of the model's
         /// own.

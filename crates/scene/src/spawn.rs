@@ -16,6 +16,7 @@ use halfway_mesh::{Bounds, Mesh, Mesh3d};
 use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::defaults::{default_lights, framing_camera};
+use crate::edges::EdgesEntry;
 use crate::error::SceneError;
 use crate::file::SceneFile;
 use crate::light::{AttachEntry, LightEntry};
@@ -123,7 +124,9 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Ent
         intensity: scene.intensity,
     };
     let view = (scene.shading, scene.reflectance);
-    world.spawn((Name::new("camera"), camera, camera_transform(&entry), view)).id()
+    let camera = world.spawn((Name::new("camera"), camera, camera_transform(&entry), view)).id();
+    insert_some(&mut world.entity_mut(camera), scene.edges.as_ref().map(EdgesEntry::component));
+    camera
 }
 
 /// Above this number of vertices the corners of boxes stand for them.
@@ -244,6 +247,7 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     insert_some(entity, object.tolerance);
     insert_some(entity, object.reflectance);
     // All parts are cut from one solid.
+    insert_some(entity, object.edges.as_ref().map(EdgesEntry::component));
     insert_some(entity, object.solid.as_ref().map(|solid| solid.for_part(&part.object_from_part)));
     // The default needs no component.
     insert_some(entity, Some(object.vertex_colors).filter(|colors| *colors != VertexColors::default()));

@@ -7,7 +7,7 @@ use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, DAffine3, DMat3, DVec3, Mat3};
 use bevy_transform::components::GlobalTransform;
 use halfway_asset::Assets;
-use halfway_lighting::Shown;
+use halfway_lighting::{Camera, Edges, Shown};
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 /// `eye_from_model` of an object, composed in f64 relative to the camera and rounded once.
@@ -57,11 +57,22 @@ pub struct NormalMatrix(pub Mat3);
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Visible(pub Vec<Entity>);
 
-type MeshQuery<'w, 's> =
-    Query<'w, 's, (Entity, &'static Mesh3d, &'static GlobalTransform, &'static SpawnOrder, Option<&'static Name>)>;
+type MeshQuery<'w, 's> = Query<
+    'w,
+    's,
+    (
+        Entity,
+        &'static Mesh3d,
+        &'static GlobalTransform,
+        &'static SpawnOrder,
+        Option<&'static Name>,
+        Option<&'static Edges>,
+    ),
+>;
 
 pub(crate) fn select(
     objects: MeshQuery,
+    cameras: Query<&Edges, With<Camera>>,
     shown: Shown,
     meshes: Res<Assets<Mesh>>,
     mut view: ResMut<View>,
@@ -76,10 +87,15 @@ pub(crate) fn select(
         return;
     }
     let is_shown = shown.by_entity();
+    let of_camera = cameras.iter().next();
     let mut farthest = 0.0;
     let mut depths = [f64::INFINITY, f64::NEG_INFINITY];
-    for (entity, mesh, transform, order, name) in objects.iter().filter(|(entity, ..)| is_shown(*entity)) {
+    for (entity, mesh, transform, order, name, edges) in objects.iter().filter(|(entity, ..)| is_shown(*entity)) {
         report.objects += 1;
+        // A wireframe has no surface.
+        if edges.or(of_camera).is_some_and(|edges| !edges.surface) {
+            continue;
+        }
         let Some(mesh) = meshes.get(&mesh.0) else {
             report.errors.push(RenderError::MissingMesh { entity: label(entity, name) });
             continue;

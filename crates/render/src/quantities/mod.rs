@@ -5,4 +5,5 @@ mod redrawn;
 mod surfaces;
 
 pub use quantity::{Quantity, QuantityImage, QuantityValues, take_quantities};
+pub(crate) use surfaces::world_from_model;
 pub use surfaces::{SurfacePoint, Surfaces, pick};

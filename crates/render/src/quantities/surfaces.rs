@@ -171,8 +171,17 @@ impl Surfaces {
         (0..self.size.y).flat_map(move |y| (0..self.size.x).map(move |x| self.at(x, y)))
     }
 
+    /// The entity and the number of the triangle in a pixel.
+    pub(crate) fn number_at(&self, x: u32, y: u32) -> Option<(Entity, u32)> {
+        if x >= self.size.x || y >= self.size.y {
+            return None;
+        }
+        let [object, triangle] = self.numbers[(y * self.size.x + x) as usize]?;
+        Some((self.objects.get(object as usize)?.entity, triangle))
+    }
+
     /// A direction of the world in eye space.
-    pub(super) fn in_eye_space(&self, direction: DVec3) -> DVec3 {
+    pub(crate) fn in_eye_space(&self, direction: DVec3) -> DVec3 {
         self.eye_from_world.transform_vector3(direction)
     }
 }
@@ -188,11 +197,7 @@ impl SeenObject {
         let nothing = |entity| (entity, Mesh::from(halfway_mesh::Cuboid::default()), DAffine3::IDENTITY);
         let seen = visible.iter().map(|&entity| {
             let found = objects.get(world, entity).ok().and_then(|(mesh, transform)| {
-                let (matrix, at) = (transform.affine().matrix3, transform.affine().translation);
-                let matrix =
-                    DMat3::from_cols(matrix.x_axis.as_dvec3(), matrix.y_axis.as_dvec3(), matrix.z_axis.as_dvec3());
-                let world_from_model = DAffine3 { matrix3: matrix, translation: at.as_dvec3() };
-                Some((entity, meshes.get(&mesh.0)?.clone(), *eye_from_world * world_from_model))
+                Some((entity, meshes.get(&mesh.0)?.clone(), *eye_from_world * world_from_model(transform)))
             });
             let (entity, mesh, eye_from_model) = found.unwrap_or_else(|| nothing(entity));
             let [object, part] = places.get(&entity).copied().unwrap_or_default();
@@ -201,6 +206,13 @@ impl SeenObject {
         });
         seen.collect()
     }
+}
+
+/// An object's transform, as exactly as it is known.
+pub(crate) fn world_from_model(transform: &GlobalTransform) -> DAffine3 {
+    let (matrix, translation) = (transform.affine().matrix3, transform.affine().translation);
+    let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|column| column.as_dvec3());
+    DAffine3 { matrix3: DMat3::from_cols(columns[0], columns[1], columns[2]), translation: translation.as_dvec3() }
 }
 
 /// The numbers of each object and part.

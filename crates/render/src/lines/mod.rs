@@ -1,0 +1,249 @@
+//! Lines over the finished picture: the edges of meshes.
+
+mod segment;
+
+use crate::lines::segment::{Reached, Segment};
+use crate::picture::Picture;
+use crate::quantities::Surfaces;
+use bevy_color::LinearRgba;
+use bevy_ecs::prelude::*;
+use bevy_math::{DAffine3, DVec2, DVec3, UVec2};
+use bevy_transform::components::GlobalTransform;
+use halfway_asset::Assets;
+use halfway_frame::error::{RenderError, label};
+use halfway_frame::view::camera::View;
+use halfway_lighting::{Camera, Edges, Encoding, HiddenEdges, Lens, Shown, WhichEdges};
+use halfway_mesh::{Mesh, Mesh3d, MeshEdge, SpawnOrder};
+
+/// Dashes and gaps, in pixels.
+const DASH: [f64; 2] = [5.0, 4.0];
+
+/// Whether objects of this world have lines.
+pub(crate) fn are_there(world: &World) -> bool {
+    world.try_query::<&Edges>().is_some_and(|mut edges| edges.iter(world).next().is_some())
+}
+
+/// Draws the edges of all objects that have some over the newest frame's picture.
+///
+/// # Errors
+/// Those of [`Surfaces::take`], and an invalid [`Edges`].
+pub(crate) fn draw_over(world: &mut World, picture: &mut Picture) -> Result<(), RenderError> {
+    let objects = edged_objects(world)?;
+    if objects.is_empty() {
+        return Ok(());
+    }
+    let surfaces = Surfaces::take(world)?;
+    let view = world.resource::<View>();
+    let camera = view.camera.ok_or(RenderError::NoPicture)?;
+    let drawing = Drawing::new(&surfaces, &camera, view.eye_from_world);
+    for same in objects.chunk_by(|a, b| a.edges == b.edges) {
+        let mut coverage = vec![0.0_f32; surfaces.size().element_product() as usize];
+        for object in same {
+            drawing.add(object, &mut coverage);
+        }
+        lay_over(picture, &coverage, same[0].edges.color, camera.encoding);
+    }
+    Ok(())
+}
+
+struct EdgedObject {
+    entity: Entity,
+    edges: Edges,
+    mesh: Mesh,
+    transform: GlobalTransform,
+}
+
+/// The shown objects with edges of their own or the camera's, in spawn order.
+fn edged_objects(world: &mut World) -> Result<Vec<EdgedObject>, RenderError> {
+    type Objects<'w, 's> = Query<
+        'w,
+        's,
+        (
+            Entity,
+            &'static Mesh3d,
+            &'static GlobalTransform,
+            &'static SpawnOrder,
+            Option<&'static Edges>,
+            Option<&'static Name>,
+        ),
+    >;
+    let mut state =
+        bevy_ecs::system::SystemState::<(Objects, Query<&Edges, With<Camera>>, Shown, Res<Assets<Mesh>>)>::new(world);
+    let (objects, of_camera, shown, meshes) = state.get(world).map_err(|_| RenderError::NoPicture)?;
+    let of_camera = of_camera.iter().next();
+    let is_shown = shown.by_entity();
+    let mut found = Vec::new();
+    for (entity, mesh, transform, order, own, name) in &objects {
+        let (Some(edges), Some(mesh)) = (own.or(of_camera), meshes.get(&mesh.0)) else { continue };
+        if is_shown(entity) && transform.affine().is_finite() {
+            let invalid = |source| RenderError::Invalid { entity: label(entity, name), source };
+            edges.validate().map_err(invalid)?;
+            found.push((*order, EdgedObject { entity, edges: *edges, mesh: mesh.clone(), transform: *transform }));
+        }
+    }
+    found.sort_unstable_by_key(|&(order, _)| order);
+    Ok(found.into_iter().map(|(_, object)| object).collect())
+}
+
+/// All that decides where edges are drawn, but for the edges.
+struct Drawing<'a> {
+    surfaces: &'a Surfaces,
+    lens: Lens<f64>,
+    eye_from_world: DAffine3,
+    size: UVec2,
+}
+
+/// An edge on the picture.
+struct Line<'a> {
+    object: &'a EdgedObject,
+    edge: &'a MeshEdge,
+    segment: Segment,
+    /// Of its ends; see [`Lens::unfitted_nearness`].
+    nearness: [f64; 2],
+}
+
+impl<'a> Drawing<'a> {
+    fn new(surfaces: &'a Surfaces, camera: &Camera, eye_from_world: DAffine3) -> Self {
+        let size = surfaces.size();
+        Self { surfaces, lens: camera.projection.lens(size.to_array()), eye_from_world, size }
+    }
+
+    fn add(&self, object: &EdgedObject, coverage: &mut [f32]) {
+        let world_from_model = crate::quantities::world_from_model(&object.transform);
+        let eye_from_model = self.eye_from_world * world_from_model;
+        let corners: Vec<DVec3> =
+            object.mesh.positions().iter().map(|p| eye_from_model.transform_point3(p.as_dvec3())).collect();
+        for edge in object.mesh.edges() {
+            if !self.is_drawn(object, &edge, &corners) {
+                continue;
+            }
+            let Some((ends, nearness)) = self.placed(edge.ends.map(|vertex| corners[vertex as usize])) else {
+                continue;
+            };
+            let segment = Segment { from: ends[0], to: ends[1], width: f64::from(object.edges.width) };
+            self.draw(&Line { object, edge: &edge, segment, nearness }, coverage);
+        }
+    }
+
+    fn is_drawn(&self, object: &EdgedObject, edge: &MeshEdge, corners: &[DVec3]) -> bool {
+        let is_outline = || edge.is_border() || self.is_silhouette(object, edge, corners);
+        match object.edges.which {
+            WhichEdges::All => true,
+            WhichEdges::Feature(angle) => edge.angle >= angle || is_outline(),
+            WhichEdges::Boundary => edge.is_border(),
+            WhichEdges::Silhouette => is_outline(),
+        }
+    }
+
+    /// Whether one of its triangles faces the camera and the other does not.
+    fn is_silhouette(&self, object: &EdgedObject, edge: &MeshEdge, corners: &[DVec3]) -> bool {
+        let [first, second] = edge.triangles.map(|triangle| {
+            let [a, b, c] =
+                object.mesh.indices().as_chunks::<3>().0[triangle as usize].map(|vertex| corners[vertex as usize]);
+            (b - a).cross(c - a).dot(DVec3::from(self.lens.sight(a.to_array())))
+        });
+        first * second < 0.0
+    }
+
+    /// The part of an edge before the camera, on the picture; `None` where there is none.
+    fn placed(&self, ends: [DVec3; 2]) -> Option<([DVec2; 2], [f64; 2])> {
+        let [a, b] = ends.map(|end| -end.z);
+        let near = self.lens.near;
+        let cut = |inside: DVec3, outside: DVec3| {
+            let share = (-inside.z - near) / (outside.z - inside.z);
+            inside + share * (outside - inside)
+        };
+        let ends = match (a >= near, b >= near) {
+            (true, true) => ends,
+            (true, false) => [ends[0], cut(ends[0], ends[1])],
+            (false, true) => [cut(ends[1], ends[0]), ends[1]],
+            (false, false) => return None,
+        };
+        let size = self.size.as_dvec2();
+        let at = ends.map(|end| {
+            let [x, y, _, w] = self.lens.clip_from_eye(end.to_array());
+            DVec2::new(0.5 + 0.5 * x / w, 0.5 - 0.5 * y / w) * size
+        });
+        let is_finite = at.iter().all(|end| end.is_finite());
+        is_finite.then(|| (at, ends.map(|end| self.lens.unfitted_nearness(-end.z))))
+    }
+
+    /// Adds a line to the coverage of pixels. Where lines of one colour meet, the larger coverage counts.
+    fn draw(&self, line: &Line, coverage: &mut [f32]) {
+        let length = (line.segment.to - line.segment.from).length();
+        line.segment.each(self.size, |Reached { x, y, coverage: share, along }| {
+            let there = &mut coverage[(y * self.size.x + x) as usize];
+            if share as f32 <= *there {
+                return;
+            }
+            let is_dash = || (along * length) % (DASH[0] + DASH[1]) < DASH[0];
+            let shows = self.is_visible(line, along) || line.object.edges.hidden == HiddenEdges::Dash && is_dash();
+            if shows {
+                *there = share as f32;
+            }
+        });
+    }
+
+    /// Whether no surface lies before a point of the line.
+    ///
+    /// An edge is seen where one of its own triangles is, in the pixel or beside it; else where it lies before the plane
+    /// of the surface that the pixel shows, by all that a quarter of a pixel can hide.
+    fn is_visible(&self, line: &Line, along: f64) -> bool {
+        let at = line.segment.from.lerp(line.segment.to, along);
+        let pixel = at.floor().as_ivec2().clamp(bevy_math::IVec2::ZERO, self.size.as_ivec2() - 1);
+        let Some(seen) = self.surfaces.at(pixel.x as u32, pixel.y as u32) else { return true };
+        for (dx, dy) in [(0, 0), (-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1)] {
+            let (Ok(x), Ok(y)) = (u32::try_from(pixel.x + dx), u32::try_from(pixel.y + dy)) else { continue };
+            let shown = self.surfaces.number_at(x, y);
+            if shown.is_some_and(|(entity, triangle)| {
+                entity == line.object.entity && line.edge.triangles.contains(&triangle)
+            }) {
+                return true;
+            }
+        }
+        let nearness = line.nearness[0] + along * (line.nearness[1] - line.nearness[0]);
+        let depth = if self.lens.w(2.0) == 1.0 { -nearness } else { nearness.recip() };
+        // The plane of the surface, met by the ray through the point of the line.
+        let middle = at / self.size.as_dvec2();
+        let ray = self.lens.ray([2.0 * middle.x - 1.0, 1.0 - 2.0 * middle.y]);
+        let [origin, direction] = [ray.origin, ray.direction].map(DVec3::from);
+        let normal = self.surfaces.in_eye_space(seen.face_normal);
+        let on_plane = self.eye_from_world.transform_point3(seen.position);
+        let plane_depth = normal.dot(on_plane - origin) / normal.dot(direction);
+        let plane_depth = if plane_depth.is_finite() { plane_depth.max(seen.depth) } else { seen.depth };
+        depth <= plane_depth + 0.25 * self.lens.pixel_size(depth, f64::from(self.size.y))
+    }
+}
+
+/// Lays a colour over a picture: coverage · opacity of it, in linear light.
+fn lay_over(picture: &mut Picture, coverage: &[f32], color: LinearRgba, encoding: Encoding) {
+    let LinearRgba { red, green, blue, alpha } = color;
+    let ink = [red, green, blue];
+    match picture {
+        Picture::Float(image) => {
+            for (pixel, &share) in image.pixels_mut().zip(coverage) {
+                let share = share * alpha;
+                if share > 0.0 {
+                    let [r, g, b, a] = pixel.0;
+                    let mixed = [0, 1, 2].map(|c| [r, g, b][c] + share * (ink[c] - [r, g, b][c]));
+                    pixel.0 = [mixed[0], mixed[1], mixed[2], a + share * (1.0 - a)];
+                }
+            }
+        }
+        Picture::Byte(image) => {
+            let decoded: [f64; 256] = std::array::from_fn(|byte| encoding.decode(byte as f64 / 255.0));
+            for (pixel, &share) in image.pixels_mut().zip(coverage) {
+                let share = f64::from(share * alpha);
+                if share > 0.0 {
+                    for (channel, ink) in pixel.0.iter_mut().zip(ink) {
+                        let before = decoded[usize::from(*channel)];
+                        let mixed = before + share * (f64::from(ink).min(1.0) - before);
+                        *channel = (encoding.encode(mixed) * 255.0).round() as u8;
+                    }
+                    let alpha = f64::from(pixel.0[3]);
+                    pixel.0[3] = (alpha + share * (255.0 - alpha)).round() as u8;
+                }
+            }
+        }
+    }
+}
