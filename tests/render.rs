@@ -32,6 +32,7 @@ mod render {
     mod levels;
     mod light_counts;
     mod light_lists;
+    mod lines;
     mod maps;
     mod order;
     mod painted;

@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
-use halfway_lighting::Samples;
+use halfway_lighting::{Edges, Samples};
 use halfway_reference::{Mode, Oracle};
-use halfway_render::{Picture, Pixels};
+use halfway_render::{Picture, Pixels, Surfaces, draw_edges};
 use image::DynamicImage;
 
 use crate::recording::{FrameToDraw, RecordError, camera};
@@ -68,9 +68,20 @@ impl ReferenceDrawing {
         if let Some(divisor) = image.divisor() {
             app.insert_resource(LastDivisor(divisor));
         }
-        Ok(match frame.pixels {
+        let mut picture = match frame.pixels {
             Pixels::Byte => Picture::Byte(DynamicImage::from(image.to_bytes(camera.encoding)).into_rgba8()),
             Pixels::Float => Picture::Float(image.to_float()),
-        })
+        };
+        let world = app.world_mut();
+        if world.query::<&Edges>().iter(world).next().is_some() {
+            // Edges are those of the mesh, whatever is drawn for it.
+            let oracle = Oracle::new(world, frame.size)?;
+            let surfaces = Surfaces::found_by(world, frame.size, |x, y| {
+                let nearest = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest?;
+                Some((nearest.object, nearest.triangle?))
+            })?;
+            draw_edges(world, &mut picture, &surfaces)?;
+        }
+        Ok(picture)
     }
 }

@@ -47,6 +47,7 @@ pub use halfway_frame::view::camera::View;
 pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 pub use halfway_frame::why_empty::{EmptyReason, why_empty};
 pub use headless::Headless;
+pub use lines::draw_edges;
 pub use pending::{PendingPicture, render_picture, take_picture};
 pub use picture::{Picture, Pixels};
 pub use plugin::RenderPlugin;

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use bevy_ecs::prelude::*;
-use halfway_lighting::{AlphaMode, Material};
+use halfway_lighting::{AlphaMode, Edges, Material};
 use halfway_mesh::Mesh3d;
 
 use crate::cpu::canvas::CanvasTarget;
@@ -77,6 +77,23 @@ pub(crate) fn log_ineffective_opacity(
 /// Whether the frame may show nothing.
 pub(crate) fn may_be_empty(report: Res<FrameReport>) -> bool {
     report.errors.is_empty() && (report.visible == 0 || report.lights == 0)
+}
+
+/// Logs once that a window does not show the lines of [`Edges`].
+pub(crate) fn log_edges(
+    edges: Query<(), With<Edges>>,
+    #[cfg(feature = "wgpu")] surface: Option<Res<SurfaceTarget>>,
+    canvas: Option<Res<CanvasTarget>>,
+    mut logged: ResMut<Logged>,
+) {
+    #[cfg(feature = "wgpu")]
+    let is_window = canvas.is_some() || surface.is_some();
+    #[cfg(not(feature = "wgpu"))]
+    let is_window = canvas.is_some();
+    const MESSAGE: &str = "a window does not show the lines of `Edges`; pictures that are taken do (`take_picture`)";
+    if is_window && !edges.is_empty() && logged.is_new(MESSAGE) {
+        log::warn!("{MESSAGE}");
+    }
 }
 
 /// Logs why the frame shows nothing.

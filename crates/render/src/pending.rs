@@ -169,7 +169,7 @@ fn picture_of_frame(world: &mut World) -> Result<Picture, RenderError> {
     }
     let mut picture = PendingPicture::request(world)?.wait()?;
     if lines::are_there(world) {
-        lines::draw_over(world, &mut picture)?;
+        lines::draw_over_frame(world, &mut picture)?;
     }
     Ok(picture)
 }

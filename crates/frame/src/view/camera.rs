@@ -135,7 +135,7 @@ pub(crate) fn require_propagation(
 }
 
 /// The inverse of the rigid part of the camera's transform.
-fn eye_from_world(transform: &GlobalTransform) -> DAffine3 {
+pub fn eye_from_world(transform: &GlobalTransform) -> DAffine3 {
     let (_, rotation, translation) = transform.to_scale_rotation_translation();
     let eye_from_world = DMat3::from_quat(rotation.as_dquat().normalize()).transpose();
     let position: DVec3 = translation.as_dvec3();

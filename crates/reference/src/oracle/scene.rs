@@ -8,8 +8,9 @@ use halfway_asset::Assets;
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::lights::{LightFrame, LightQueries, LightSource};
 use halfway_lighting::{
-    AlphaMode, BackMaterial, Camera, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Material, Propagation,
-    Reflectance, Samples, Shading, Shown, VertexColors, light_direction, light_position, light_up, propagation,
+    AlphaMode, BackMaterial, Camera, Edges, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Material,
+    Propagation, Reflectance, Samples, Shading, Shown, VertexColors, light_direction, light_position, light_up,
+    propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{Maps, Pyramid, SolidTexture, SurfaceMap, Texture};
@@ -161,7 +162,7 @@ type Object<'a> = (
     Option<&'a Faces>,
     Option<&'a AlphaMode>,
     Option<&'a VertexColors>,
-    (Option<&'a Maps>, Option<&'a SolidTexture>),
+    (Option<&'a Maps>, Option<&'a SolidTexture>, Option<&'a Edges>),
 );
 
 fn solids(world: &mut World, defaults: &ViewDefaults) -> Result<Vec<Solid>, OracleError> {
@@ -169,8 +170,13 @@ fn solids(world: &mut World, defaults: &ViewDefaults) -> Result<Vec<Solid>, Orac
     let mut shown = SystemState::<Shown>::new(world);
     let shown = shown.get(world).expect(ALWAYS);
     let is_shown = shown.by_entity();
+    // A wireframe has no surface.
+    let of_camera = world.try_query_filtered::<&Edges, With<Camera>>();
+    let of_camera = of_camera.and_then(|mut edges| edges.iter(world).next());
+    let has_surface = |own: Option<&Edges>| own.or(of_camera).is_none_or(|edges| edges.surface);
     let meshes = (world.get_resource::<Assets<Mesh>>(), world.get_resource::<Assets<Texture>>());
-    let mut objects: Vec<_> = query.iter(world).filter(|(entity, ..)| is_shown(*entity)).collect();
+    let mut objects: Vec<_> =
+        query.iter(world).filter(|(entity, .., (_, _, edges))| is_shown(*entity) && has_surface(*edges)).collect();
     objects.sort_unstable_by_key(|(entity, _, _, order, ..)| (**order, *entity));
     let solids = objects.into_iter().map(|object| solid(object, meshes, defaults));
     let (mut blended, mut solids): (Vec<_>, Vec<_>) =
@@ -195,7 +201,7 @@ fn solid(
         faces,
         alpha,
         colors,
-        (maps, cut_from),
+        (maps, cut_from, _),
     ): Object,
     (meshes, textures): (Option<&Assets<Mesh>>, Option<&Assets<Texture>>),
     defaults: &ViewDefaults,

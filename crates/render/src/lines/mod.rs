@@ -7,11 +7,10 @@ use crate::picture::Picture;
 use crate::quantities::Surfaces;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
-use bevy_math::{DAffine3, DVec2, DVec3, UVec2};
+use bevy_math::{DVec2, DVec3, IVec2, UVec2};
 use bevy_transform::components::GlobalTransform;
 use halfway_asset::Assets;
 use halfway_frame::error::{RenderError, label};
-use halfway_frame::view::camera::View;
 use halfway_lighting::{Camera, Edges, Encoding, HiddenEdges, Lens, Shown, WhichEdges};
 use halfway_mesh::{Mesh, Mesh3d, MeshEdge, SpawnOrder};
 
@@ -27,21 +26,29 @@ pub(crate) fn are_there(world: &World) -> bool {
 ///
 /// # Errors
 /// Those of [`Surfaces::take`], and an invalid [`Edges`].
-pub(crate) fn draw_over(world: &mut World, picture: &mut Picture) -> Result<(), RenderError> {
-    let objects = edged_objects(world)?;
-    if objects.is_empty() {
+pub(crate) fn draw_over_frame(world: &mut World, picture: &mut Picture) -> Result<(), RenderError> {
+    if edged_objects(world)?.is_empty() {
         return Ok(());
     }
     let surfaces = Surfaces::take(world)?;
-    let view = world.resource::<View>();
-    let camera = view.camera.ok_or(RenderError::NoPicture)?;
-    let drawing = Drawing::new(&surfaces, &camera, view.eye_from_world);
+    draw_edges(world, picture, &surfaces)
+}
+
+/// Draws the [`Edges`] of all objects that have some over a picture that shows these surfaces, in the camera's encoding.
+/// [`take_picture`](crate::take_picture) and [`render_picture`](crate::render_picture) have done it.
+///
+/// # Errors
+/// [`RenderError::Invalid`] for an invalid [`Edges`], [`RenderError::NoCamera`].
+pub fn draw_edges(world: &mut World, picture: &mut Picture, surfaces: &Surfaces) -> Result<(), RenderError> {
+    let objects = edged_objects(world)?;
+    let encoding = world.query::<&Camera>().iter(world).next().ok_or(RenderError::NoCamera)?.encoding;
+    let drawing = Drawing { surfaces };
     for same in objects.chunk_by(|a, b| a.edges == b.edges) {
         let mut coverage = vec![0.0_f32; surfaces.size().element_product() as usize];
         for object in same {
             drawing.add(object, &mut coverage);
         }
-        lay_over(picture, &coverage, same[0].edges.color, camera.encoding);
+        lay_over(picture, &coverage, same[0].edges.color, encoding);
     }
     Ok(())
 }
@@ -85,12 +92,9 @@ fn edged_objects(world: &mut World) -> Result<Vec<EdgedObject>, RenderError> {
     Ok(found.into_iter().map(|(_, object)| object).collect())
 }
 
-/// All that decides where edges are drawn, but for the edges.
+/// The picture that edges are drawn over.
 struct Drawing<'a> {
     surfaces: &'a Surfaces,
-    lens: Lens<f64>,
-    eye_from_world: DAffine3,
-    size: UVec2,
 }
 
 /// An edge on the picture.
@@ -102,15 +106,18 @@ struct Line<'a> {
     nearness: [f64; 2],
 }
 
-impl<'a> Drawing<'a> {
-    fn new(surfaces: &'a Surfaces, camera: &Camera, eye_from_world: DAffine3) -> Self {
-        let size = surfaces.size();
-        Self { surfaces, lens: camera.projection.lens(size.to_array()), eye_from_world, size }
+impl Drawing<'_> {
+    fn lens(&self) -> &Lens<f64> {
+        self.surfaces.lens()
+    }
+
+    fn size(&self) -> UVec2 {
+        self.surfaces.size()
     }
 
     fn add(&self, object: &EdgedObject, coverage: &mut [f32]) {
         let world_from_model = crate::quantities::world_from_model(&object.transform);
-        let eye_from_model = self.eye_from_world * world_from_model;
+        let eye_from_model = self.surfaces.eye_from_world() * world_from_model;
         let corners: Vec<DVec3> =
             object.mesh.positions().iter().map(|p| eye_from_model.transform_point3(p.as_dvec3())).collect();
         for edge in object.mesh.edges() {
@@ -140,15 +147,16 @@ impl<'a> Drawing<'a> {
         let [first, second] = edge.triangles.map(|triangle| {
             let [a, b, c] =
                 object.mesh.indices().as_chunks::<3>().0[triangle as usize].map(|vertex| corners[vertex as usize]);
-            (b - a).cross(c - a).dot(DVec3::from(self.lens.sight(a.to_array())))
+            (b - a).cross(c - a).dot(DVec3::from(self.lens().sight(a.to_array())))
         });
-        first * second < 0.0
+        // A triangle that is seen from its side faces nobody.
+        (first < 0.0) != (second < 0.0)
     }
 
     /// The part of an edge before the camera, on the picture; `None` where there is none.
     fn placed(&self, ends: [DVec3; 2]) -> Option<([DVec2; 2], [f64; 2])> {
         let [a, b] = ends.map(|end| -end.z);
-        let near = self.lens.near;
+        let near = self.lens().near;
         let cut = |inside: DVec3, outside: DVec3| {
             let share = (-inside.z - near) / (outside.z - inside.z);
             inside + share * (outside - inside)
@@ -159,20 +167,20 @@ impl<'a> Drawing<'a> {
             (false, true) => [cut(ends[1], ends[0]), ends[1]],
             (false, false) => return None,
         };
-        let size = self.size.as_dvec2();
+        let size = self.size().as_dvec2();
         let at = ends.map(|end| {
-            let [x, y, _, w] = self.lens.clip_from_eye(end.to_array());
+            let [x, y, _, w] = self.lens().clip_from_eye(end.to_array());
             DVec2::new(0.5 + 0.5 * x / w, 0.5 - 0.5 * y / w) * size
         });
         let is_finite = at.iter().all(|end| end.is_finite());
-        is_finite.then(|| (at, ends.map(|end| self.lens.unfitted_nearness(-end.z))))
+        is_finite.then(|| (at, ends.map(|end| self.lens().unfitted_nearness(-end.z))))
     }
 
     /// Adds a line to the coverage of pixels. Where lines of one colour meet, the larger coverage counts.
     fn draw(&self, line: &Line, coverage: &mut [f32]) {
         let length = (line.segment.to - line.segment.from).length();
-        line.segment.each(self.size, |Reached { x, y, coverage: share, along }| {
-            let there = &mut coverage[(y * self.size.x + x) as usize];
+        line.segment.each(self.size(), |Reached { x, y, coverage: share, along }| {
+            let there = &mut coverage[(y * self.size().x + x) as usize];
             if share as f32 <= *there {
                 return;
             }
@@ -190,7 +198,7 @@ impl<'a> Drawing<'a> {
     /// of the surface that the pixel shows, by all that a quarter of a pixel can hide.
     fn is_visible(&self, line: &Line, along: f64) -> bool {
         let at = line.segment.from.lerp(line.segment.to, along);
-        let pixel = at.floor().as_ivec2().clamp(bevy_math::IVec2::ZERO, self.size.as_ivec2() - 1);
+        let pixel = at.floor().as_ivec2().clamp(IVec2::ZERO, self.size().as_ivec2() - 1);
         let Some(seen) = self.surfaces.at(pixel.x as u32, pixel.y as u32) else { return true };
         for (dx, dy) in [(0, 0), (-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1)] {
             let (Ok(x), Ok(y)) = (u32::try_from(pixel.x + dx), u32::try_from(pixel.y + dy)) else { continue };
@@ -202,16 +210,16 @@ impl<'a> Drawing<'a> {
             }
         }
         let nearness = line.nearness[0] + along * (line.nearness[1] - line.nearness[0]);
-        let depth = if self.lens.w(2.0) == 1.0 { -nearness } else { nearness.recip() };
+        let depth = if self.lens().w(2.0) == 1.0 { -nearness } else { nearness.recip() };
         // The plane of the surface, met by the ray through the point of the line.
-        let middle = at / self.size.as_dvec2();
-        let ray = self.lens.ray([2.0 * middle.x - 1.0, 1.0 - 2.0 * middle.y]);
+        let middle = at / self.size().as_dvec2();
+        let ray = self.lens().ray([2.0 * middle.x - 1.0, 1.0 - 2.0 * middle.y]);
         let [origin, direction] = [ray.origin, ray.direction].map(DVec3::from);
         let normal = self.surfaces.in_eye_space(seen.face_normal);
-        let on_plane = self.eye_from_world.transform_point3(seen.position);
+        let on_plane = self.surfaces.eye_from_world().transform_point3(seen.position);
         let plane_depth = normal.dot(on_plane - origin) / normal.dot(direction);
         let plane_depth = if plane_depth.is_finite() { plane_depth.max(seen.depth) } else { seen.depth };
-        depth <= plane_depth + 0.25 * self.lens.pixel_size(depth, f64::from(self.size.y))
+        depth <= plane_depth + 0.25 * self.lens().pixel_size(depth, f64::from(self.size().y))
     }
 }
 

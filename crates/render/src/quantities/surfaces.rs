@@ -7,9 +7,9 @@ use bevy_platform::collections::HashMap;
 use bevy_transform::components::GlobalTransform;
 use halfway_asset::Assets;
 use halfway_frame::error::RenderError;
-use halfway_frame::view::camera::{PictureSize, View};
+use halfway_frame::view::camera::{PictureSize, View, eye_from_world};
 use halfway_frame::view::matrices::{Visible, normal_matrix};
-use halfway_lighting::Lens;
+use halfway_lighting::{Camera, Lens};
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 /// The surface that the middle of each pixel shows, with all that is known of it.
@@ -108,15 +108,49 @@ impl Surfaces {
     pub fn take(world: &mut World) -> Result<Self, RenderError> {
         let picture = redrawn::draw(world, Shows::Numbers)?;
         let (view, size) = (world.resource::<View>(), world.resource::<PictureSize>().0);
-        let camera = view.camera.ok_or(RenderError::NoPicture)?;
-        let (lens, eye_from_world) = (camera.projection.lens(size.to_array()), view.eye_from_world);
-        Ok(Self {
-            size,
-            lens,
-            eye_from_world,
-            objects: SeenObject::all(world, &eye_from_world),
-            numbers: picture.pixels().map(|pixel| numbers(pixel.0)).collect(),
-        })
+        let (camera, eye_from_world) = (view.camera.ok_or(RenderError::NoPicture)?, view.eye_from_world);
+        let entities = world.resource::<Visible>().0.clone();
+        let numbers = picture.pixels().map(|pixel| numbers(pixel.0)).collect();
+        Ok(Self::new(world, (&camera, eye_from_world), size, &entities, numbers))
+    }
+
+    /// The surfaces that another drawer shows: `find` gives the entity and the triangle in the middle of a pixel, by its
+    /// column and row.
+    ///
+    /// # Errors
+    /// [`RenderError::NoCamera`].
+    pub fn found_by(
+        world: &mut World,
+        size: UVec2,
+        find: impl Fn(u32, u32) -> Option<(Entity, u32)>,
+    ) -> Result<Self, RenderError> {
+        let mut cameras = world.query::<(&Camera, &GlobalTransform)>();
+        let (camera, transform) = cameras.iter(world).next().ok_or(RenderError::NoCamera)?;
+        let (camera, eye_from_world) = (*camera, eye_from_world(transform));
+        let mut entities = Vec::new();
+        let mut numbers_of = HashMap::<Entity, u32>::default();
+        let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| (x, y)));
+        let numbers = pixels.map(|(x, y)| {
+            let (entity, triangle) = find(x, y)?;
+            let number = *numbers_of.entry(entity).or_insert_with(|| {
+                entities.push(entity);
+                entities.len() as u32 - 1
+            });
+            Some([number, triangle])
+        });
+        let numbers = numbers.collect();
+        Ok(Self::new(world, (&camera, eye_from_world), size, &entities, numbers))
+    }
+
+    fn new(
+        world: &mut World,
+        (camera, eye_from_world): (&Camera, DAffine3),
+        size: UVec2,
+        entities: &[Entity],
+        numbers: Vec<Option<[u32; 2]>>,
+    ) -> Self {
+        let lens = camera.projection.lens(size.to_array());
+        Self { size, lens, eye_from_world, objects: SeenObject::all(world, entities, &eye_from_world), numbers }
     }
 
     /// Width and height in pixels.
@@ -171,6 +205,16 @@ impl Surfaces {
         (0..self.size.y).flat_map(move |y| (0..self.size.x).map(move |x| self.at(x, y)))
     }
 
+    /// The projection of its picture.
+    pub(crate) fn lens(&self) -> &Lens<f64> {
+        &self.lens
+    }
+
+    /// World to eye.
+    pub(crate) fn eye_from_world(&self) -> DAffine3 {
+        self.eye_from_world
+    }
+
     /// The entity and the number of the triangle in a pixel.
     pub(crate) fn number_at(&self, x: u32, y: u32) -> Option<(Entity, u32)> {
         if x >= self.size.x || y >= self.size.y {
@@ -187,17 +231,16 @@ impl Surfaces {
 }
 
 impl SeenObject {
-    /// The objects of the newest frame, in the order of their numbers there.
-    fn all(world: &mut World, eye_from_world: &DAffine3) -> Vec<Self> {
+    /// The objects, in the order of their numbers.
+    fn all(world: &mut World, entities: &[Entity], eye_from_world: &DAffine3) -> Vec<Self> {
         let places = places(world);
-        let visible = world.resource::<Visible>().0.clone();
         let mut objects = world.query::<(&Mesh3d, &GlobalTransform)>();
         let world = &*world;
-        let meshes = world.resource::<Assets<Mesh>>();
+        let meshes = world.get_resource::<Assets<Mesh>>();
         let nothing = |entity| (entity, Mesh::from(halfway_mesh::Cuboid::default()), DAffine3::IDENTITY);
-        let seen = visible.iter().map(|&entity| {
+        let seen = entities.iter().map(|&entity| {
             let found = objects.get(world, entity).ok().and_then(|(mesh, transform)| {
-                Some((entity, meshes.get(&mesh.0)?.clone(), *eye_from_world * world_from_model(transform)))
+                Some((entity, meshes?.get(&mesh.0)?.clone(), *eye_from_world * world_from_model(transform)))
             });
             let (entity, mesh, eye_from_model) = found.unwrap_or_else(|| nothing(entity));
             let [object, part] = places.get(&entity).copied().unwrap_or_default();
