@@ -9,6 +9,7 @@
 
 mod render {
     mod adapter;
+    mod backgrounds;
     mod blend;
     mod changes;
     mod closed_forms;

@@ -3,10 +3,12 @@
 use std::ops::ControlFlow;
 
 use bevy_app::App;
-use bevy_ecs::resource::Resource;
-use halfway_lighting::{Edges, Samples};
-use halfway_reference::{Mode, Oracle};
-use halfway_render::{Picture, Pixels, Surfaces, draw_edges};
+use bevy_color::LinearRgba;
+use bevy_ecs::prelude::{Resource, World};
+use bevy_math::UVec2;
+use halfway_lighting::{Camera, Edges, Intensity, Samples};
+use halfway_reference::{Mode, Oracle, OracleError};
+use halfway_render::{Picture, Pixels, Surfaces, draw_background, draw_edges};
 use image::DynamicImage;
 
 use crate::recording::{FrameToDraw, RecordError, camera};
@@ -73,6 +75,10 @@ impl ReferenceDrawing {
             Pixels::Float => Picture::Float(image.to_float()),
         };
         let world = app.world_mut();
+        if !camera.background_is_plain() {
+            let shares = background_shares(world, frame.size, supersampling)?;
+            draw_background(&mut picture, &shares, &camera);
+        }
         if world.query::<&Edges>().iter(world).next().is_some() {
             // Edges are those of the mesh, whatever is drawn for it.
             let oracle = Oracle::new(world, frame.size)?;
@@ -84,4 +90,23 @@ impl ReferenceDrawing {
         }
         Ok(picture)
     }
+}
+
+/// How much of the background is seen in each pixel: what a white one adds to a black one.
+fn background_shares(world: &mut World, size: UVec2, supersampling: u32) -> Result<Vec<f32>, OracleError> {
+    let mut cameras = world.query::<&mut Camera>();
+    let Some(before) = cameras.iter(world).next().copied() else { return Ok(Vec::new()) };
+    let mut drawn = |background| {
+        for mut camera in cameras.iter_mut(world) {
+            *camera = Camera { background, intensity: Intensity::Clamp, ..before };
+        }
+        Ok(Oracle::new(world, size)?.with_supersampling(supersampling).with_clamping(true).draw().to_float())
+    };
+    let pictures = [LinearRgba::BLACK, LinearRgba::WHITE].map(&mut drawn);
+    for mut camera in cameras.iter_mut(world) {
+        *camera = before;
+    }
+    let [black, white] = pictures;
+    let pixels = black?.into_raw().into_iter().zip(white?.into_raw());
+    Ok(pixels.step_by(4).map(|(black, white)| white - black).collect())
 }

@@ -6,6 +6,7 @@
 //! its CPU times, and [`GpuTimer`] its GPU time.
 
 mod adapter;
+mod background;
 mod choice;
 mod cpu;
 #[cfg(feature = "wgpu")]
@@ -20,6 +21,7 @@ mod quantities;
 mod replaced;
 
 pub use adapter::Adapter;
+pub use background::draw_background;
 pub use choice::AdapterChoice;
 pub use cpu::canvas::{Canvas, CanvasTarget};
 pub use cpu::device::Cpu;

@@ -1,5 +1,6 @@
 //! Pictures that are being read back from the adapter.
 
+use crate::background;
 use crate::cpu::canvas::{Canvas, CanvasTarget};
 #[cfg(feature = "wgpu")]
 use crate::gpu::{attachments::Target, device::Gpu, read_back::ReadBack};
@@ -25,7 +26,9 @@ enum Pending {
 }
 
 impl PendingPicture {
-    /// Starts to copy the newest headless picture; later frames do not change what arrives.
+    /// Starts to copy the newest headless picture; later frames do not change what arrives. It is as the drawer left it:
+    /// opaque, and without the lines of [`Edges`](halfway_lighting::Edges), which [`take_picture`] and
+    /// [`render_picture`] add.
     ///
     /// In a system that runs before the frame of its update is drawn, in `Update` say, that is the picture of the update
     /// before: the log says so once. Ask after [`RenderSet::Deliver`](crate::RenderSet::Deliver), or after the update.
@@ -168,6 +171,7 @@ fn picture_of_frame(world: &mut World) -> Result<Picture, RenderError> {
         return Err(error.clone());
     }
     let mut picture = PendingPicture::request(world)?.wait()?;
+    background::put_behind(world, &mut picture)?;
     if lines::are_there(world) {
         lines::draw_over_frame(world, &mut picture)?;
     }

@@ -33,6 +33,11 @@ keys! {
         size: [u32; 2] = [1280, 720] => Limits::Counts(1, SceneFile::MAX_SIDE),
         /// The colour where nothing is drawn, linear RGB. 0 to 1e12.
         background: [f32; 3] = Camera::default().background.to_f32_array_no_alpha() => Limits::Numbers(Range::CHANNEL),
+        /// The colour of the background at the lower edge of the picture, where it is another than at the upper edge;
+        /// null: the same.
+        background_below: Option<[f32; 3]> = None => Limits::Numbers(Range::CHANNEL),
+        /// The opacity of the background, 0 to 1; 0 makes it transparent.
+        background_opacity: f32 = 1.0 => Limits::Numbers(Range::UNIT),
         /// The encoding of the channels of a PNG picture.
         output: Encoding = Encoding::default(),
         /// The policy for intensities above 1.

@@ -2,7 +2,7 @@
 
 use halfway_lighting::Encoding;
 use halfway_render::Picture;
-use image::{Rgb, Rgb32FImage, RgbImage};
+use image::{Rgb, Rgb32FImage, RgbImage, Rgba, RgbaImage};
 
 /// min(I, 1); NaN and negative numbers become 0.
 fn clamp(intensity: f32) -> f32 {
@@ -31,6 +31,21 @@ pub fn to_bytes(picture: &Picture, encoding: Encoding) -> RgbImage {
     }
 }
 
+/// The picture with 8 bits a channel, with its alpha.
+pub(super) fn to_bytes_with_alpha(picture: &Picture, encoding: Encoding) -> RgbaImage {
+    match picture {
+        Picture::Byte(image) => image.clone(),
+        Picture::Float(image) => {
+            let (width, height) = image.dimensions();
+            RgbaImage::from_fn(width, height, |x, y| {
+                let [r, g, b, alpha] = image.get_pixel(x, y).0;
+                let [r, g, b] = [r, g, b].map(|i| quantise(i, encoding, 255) as u8);
+                Rgba([r, g, b, quantise(alpha, Encoding::Raw, 255) as u8])
+            })
+        }
+    }
+}
+
 /// The intensities of a picture, clamped to [0, 1].
 pub(super) fn to_linear(picture: &Picture, encoding: Encoding) -> Rgb32FImage {
     let (width, height) = picture.dimensions();
@@ -52,7 +67,7 @@ pub(super) fn to_linear(picture: &Picture, encoding: Encoding) -> Rgb32FImage {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use image::{Rgba, Rgba32FImage, RgbaImage};
+    use image::Rgba32FImage;
 
     #[test]
     fn quantised_values() {

@@ -1,7 +1,7 @@
 //! Pictures on disk: PNG with 8 or 16 bits, EXR in floating point, animated PNG, and contact sheets.
 //!
 //! Every file is written beside its place under another name and moved there when it is complete, so that an
-//! interrupted run leaves no partial picture. All pictures are opaque and have three channels; the top row comes first.
+//! interrupted run leaves no partial picture. Opaque pictures have three channels, others four; the top row comes first.
 //!
 //! ```
 //! use halfway_lighting::Encoding;

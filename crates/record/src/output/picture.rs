@@ -7,7 +7,7 @@ use halfway_lighting::Encoding;
 use halfway_render::Picture;
 use image::{DynamicImage, ImageFormat, Rgba32FImage};
 
-use super::encode::{quantise, to_bytes};
+use super::encode::{quantise, to_bytes, to_bytes_with_alpha};
 use super::partial::Partial;
 use super::{OutputError, PictureFormat};
 
@@ -16,6 +16,9 @@ use super::{OutputError, PictureFormat};
 /// `encoding` is the camera's. In a PNG, a picture drawn in floating point is clamped to [0, 1] and encoded with it;
 /// a picture in bytes is encoded already. A PNG of sRGB values is tagged (`sRGB`, `gAMA` and `cHRM` chunks); raw values
 /// are not, since they are meant to be displayed as they are. In an EXR the intensities are stored unchanged.
+///
+/// A picture that is not opaque everywhere has a fourth channel: in a PNG beside the colours as they are (straight
+/// alpha), in an EXR with colours that are multiplied by it (associated alpha), as these formats have it.
 ///
 /// # Errors
 /// [`OutputError::TooCoarse`] for a byte picture in a format of more bits, [`OutputError::Empty`] for one without
@@ -28,15 +31,19 @@ pub fn write_picture(
 ) -> Result<(), OutputError> {
     not_empty(file, picture.dimensions())?;
     match (format, picture) {
-        (PictureFormat::Png8, _) => {
+        (PictureFormat::Png8, _) if is_opaque(picture) => {
             let bytes = to_bytes(picture, encoding);
-            write_png(file, picture.dimensions(), png::BitDepth::Eight, encoding, bytes.as_raw())
+            write_png(file, (picture, png::BitDepth::Eight), encoding, bytes.as_raw())
+        }
+        (PictureFormat::Png8, _) => {
+            let bytes = to_bytes_with_alpha(picture, encoding);
+            write_png(file, (picture, png::BitDepth::Eight), encoding, bytes.as_raw())
         }
         (PictureFormat::Png16, Picture::Float(image)) => {
-            let bytes = sixteen_bits(image, encoding);
-            write_png(file, picture.dimensions(), png::BitDepth::Sixteen, encoding, &bytes)
+            let bytes = sixteen_bits(image, encoding, is_opaque(picture));
+            write_png(file, (picture, png::BitDepth::Sixteen), encoding, &bytes)
         }
-        (PictureFormat::Exr, Picture::Float(image)) => write_exr(file, image),
+        (PictureFormat::Exr, Picture::Float(image)) => write_exr(file, image, is_opaque(picture)),
         (PictureFormat::Png16 | PictureFormat::Exr, Picture::Byte(_)) => {
             Err(OutputError::TooCoarse { file: file.to_owned() })
         }
@@ -79,12 +86,23 @@ impl SavePicture for Picture {
     }
 }
 
-/// Three channels of 16 bits, the high byte first as PNG has them.
-fn sixteen_bits(image: &Rgba32FImage, encoding: Encoding) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(image.as_raw().len() / 4 * 6);
+/// Whether nothing lies behind the picture: then it has three channels in a file, else four.
+fn is_opaque(picture: &Picture) -> bool {
+    match picture {
+        Picture::Byte(image) => image.pixels().all(|pixel| pixel.0[3] == 255),
+        Picture::Float(image) => image.pixels().all(|pixel| pixel.0[3] >= 1.0),
+    }
+}
+
+/// Channels of 16 bits, the high byte first as PNG has them.
+fn sixteen_bits(image: &Rgba32FImage, encoding: Encoding, is_opaque: bool) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(image.as_raw().len() * 2);
     for pixel in image.pixels() {
         for &intensity in &pixel.0[..3] {
             bytes.extend(quantise(intensity, encoding, u16::MAX).to_be_bytes());
+        }
+        if !is_opaque {
+            bytes.extend(quantise(pixel.0[3], Encoding::Raw, u16::MAX).to_be_bytes());
         }
     }
     bytes
@@ -92,13 +110,16 @@ fn sixteen_bits(image: &Rgba32FImage, encoding: Encoding) -> Vec<u8> {
 
 fn write_png(
     file: &Path,
-    (width, height): (u32, u32),
-    depth: png::BitDepth,
+    (picture, depth): (&Picture, png::BitDepth),
     encoding: Encoding,
     data: &[u8],
 ) -> Result<(), OutputError> {
     let (partial, writer) = Partial::create(file)?;
-    let encoder = png_encoder(writer, width, height, depth, encoding);
+    let (width, height) = picture.dimensions();
+    let mut encoder = png_encoder(writer, width, height, depth, encoding);
+    if !is_opaque(picture) {
+        encoder.set_color(png::ColorType::Rgba);
+    }
     encoder
         .write_header()
         .and_then(|mut writer| {
@@ -141,13 +162,23 @@ pub(super) fn tagged<W: Write>(encoder: &mut png::Encoder<'_, W>) {
     });
 }
 
-fn write_exr(file: &Path, image: &Rgba32FImage) -> Result<(), OutputError> {
+fn write_exr(file: &Path, image: &Rgba32FImage, is_opaque: bool) -> Result<(), OutputError> {
     let (partial, mut writer) = Partial::create(file)?;
-    let rgb = DynamicImage::ImageRgba32F(image.clone()).into_rgb32f();
-    rgb.write_to(&mut writer, ImageFormat::OpenExr).map_err(|error| OutputError::image(file, error))?;
+    let image = DynamicImage::ImageRgba32F(image.clone());
+    let image = if is_opaque { DynamicImage::from(image.into_rgb32f()) } else { associated(image.into_rgba32f()) };
+    image.write_to(&mut writer, ImageFormat::OpenExr).map_err(|error| OutputError::image(file, error))?;
     writer.flush().map_err(|source| OutputError::io(file, source))?;
     drop(writer);
     partial.keep()
+}
+
+/// The colours times the opacity, as an EXR has them.
+fn associated(mut image: Rgba32FImage) -> DynamicImage {
+    for pixel in image.pixels_mut() {
+        let [red, green, blue, alpha] = pixel.0;
+        pixel.0 = [red * alpha, green * alpha, blue * alpha, alpha];
+    }
+    DynamicImage::from(image)
 }
 
 pub(super) fn not_empty(file: &Path, (width, height): (u32, u32)) -> Result<(), OutputError> {

@@ -321,3 +321,28 @@ fn texts_are_written_whole_or_not_at_all() {
     assert_eq!(left, ["new"]);
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[test]
+fn a_picture_that_is_not_opaque_has_four_channels() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let float = Rgba32FImage::from_fn(2, 1, |x, _| Rgba([0.5, 0.25, 1.0, [1.0, 0.5][x as usize]]));
+    let byte = RgbaImage::from_fn(2, 1, |x, _| Rgba([10, 20, 30, [255, 0][x as usize]]));
+    let read = |name: &str, picture: &Picture, bits| {
+        let file = folder.path().join(name);
+        let format = PictureFormat::from_path(&file, bits).expect("a format");
+        write_picture(picture, &file, format, Encoding::Raw).expect("it is written");
+        image::open(&file).expect("it is read")
+    };
+    // Straight in a PNG.
+    let eight = read("8.png", &Picture::Float(float.clone()), None);
+    assert_eq!(eight.as_rgba8().expect("four channels").as_raw()[..], [128, 64, 255, 255, 128, 64, 255, 128]);
+    let sixteen = read("16.png", &Picture::Float(float.clone()), Some(16));
+    assert_eq!(sixteen.as_rgba16().expect("four channels").as_raw()[4..], [32768, 16384, 65535, 32768]);
+    assert_eq!(read("b.png", &Picture::Byte(byte.clone()), None).as_rgba8(), Some(&byte));
+    // Multiplied in an EXR.
+    let exr = read("f.exr", &Picture::Float(float.clone()), None);
+    assert_eq!(exr.as_rgba32f().expect("four channels").as_raw()[4..], [0.25, 0.125, 0.5, 0.5]);
+    let opaque = Rgba32FImage::from_pixel(2, 1, Rgba([0.5, 0.25, 1.0, 1.0]));
+    assert!(read("o.png", &Picture::Float(opaque.clone()), None).as_rgb8().is_some());
+    assert!(read("o.exr", &Picture::Float(opaque), None).as_rgb32f().is_some());
+}

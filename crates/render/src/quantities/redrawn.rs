@@ -156,6 +156,7 @@ impl Redrawn {
         let transform = *cameras.iter(world).next().ok_or(RenderError::NoCamera)?;
         let camera = Camera {
             background: if shows == Shows::Background { LinearRgba::WHITE } else { LinearRgba::BLACK },
+            background_below: None,
             samples: if shows == Shows::Numbers { Samples::One } else { camera.samples },
             encoding: Encoding::Raw,
             intensity: Intensity::Clamp,
