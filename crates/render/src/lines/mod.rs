@@ -4,7 +4,7 @@ mod segment;
 
 use crate::lines::segment::{Reached, Segment};
 use crate::picture::Picture;
-use crate::quantities::Surfaces;
+use crate::quantities::{SurfacePoint, Surfaces};
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::{DVec2, DVec3, IVec2, UVec2};
@@ -194,34 +194,54 @@ impl Drawing<'_> {
 
     /// Whether no surface lies before a point of the line.
     ///
-    /// An edge is seen where one of its own triangles is, in the pixel or beside it; else where it lies before the plane
-    /// of the surface that the pixel shows, by all that a quarter of a pixel can hide.
+    /// It is seen where its pixel or one beside it shows a triangle of the edge, something that lies farther away, or
+    /// nothing: at a silhouette the pixel itself may show either side. In its pixel, the plane of the surface counts.
     fn is_visible(&self, line: &Line, along: f64) -> bool {
         let at = line.segment.from.lerp(line.segment.to, along);
         let pixel = at.floor().as_ivec2().clamp(IVec2::ZERO, self.size().as_ivec2() - 1);
-        let Some(seen) = self.surfaces.at(pixel.x as u32, pixel.y as u32) else { return true };
-        for (dx, dy) in [(0, 0), (-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1)] {
-            let (Ok(x), Ok(y)) = (u32::try_from(pixel.x + dx), u32::try_from(pixel.y + dy)) else { continue };
-            let shown = self.surfaces.number_at(x, y);
-            if shown.is_some_and(|(entity, triangle)| {
-                entity == line.object.entity && line.edge.triangles.contains(&triangle)
-            }) {
-                return true;
-            }
-        }
         let nearness = line.nearness[0] + along * (line.nearness[1] - line.nearness[0]);
         let depth = if self.lens().w(2.0) == 1.0 { -nearness } else { nearness.recip() };
-        // The plane of the surface, met by the ray through the point of the line.
+        // What a quarter of a pixel can hide.
+        let depth = depth - 0.25 * self.lens().pixel_size(depth, f64::from(self.size().y));
+        AROUND.into_iter().any(|step| {
+            let [x, y] = (pixel + step).to_array();
+            let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return false };
+            if x >= self.size().x || y >= self.size().y {
+                return false;
+            }
+            let Some((entity, triangle)) = self.surfaces.number_at(x, y) else { return true };
+            if entity == line.object.entity && line.edge.triangles.contains(&triangle) {
+                return true;
+            }
+            let Some(seen) = self.surfaces.at(x, y) else { return true };
+            depth <= if step == IVec2::ZERO { self.plane_depth(&seen, at) } else { seen.depth }
+        })
+    }
+
+    /// The depth of a surface's plane on the ray through a point of the picture, or of the surface if that lies farther.
+    fn plane_depth(&self, seen: &SurfacePoint, at: DVec2) -> f64 {
         let middle = at / self.size().as_dvec2();
         let ray = self.lens().ray([2.0 * middle.x - 1.0, 1.0 - 2.0 * middle.y]);
         let [origin, direction] = [ray.origin, ray.direction].map(DVec3::from);
         let normal = self.surfaces.in_eye_space(seen.face_normal);
         let on_plane = self.surfaces.eye_from_world().transform_point3(seen.position);
-        let plane_depth = normal.dot(on_plane - origin) / normal.dot(direction);
-        let plane_depth = if plane_depth.is_finite() { plane_depth.max(seen.depth) } else { seen.depth };
-        depth <= plane_depth + 0.25 * self.lens().pixel_size(depth, f64::from(self.size().y))
+        let depth = normal.dot(on_plane - origin) / normal.dot(direction);
+        if depth.is_finite() { depth.max(seen.depth) } else { seen.depth }
     }
 }
+
+/// A pixel, and those beside it.
+const AROUND: [IVec2; 9] = [
+    IVec2::ZERO,
+    IVec2::new(-1, 0),
+    IVec2::new(1, 0),
+    IVec2::new(0, -1),
+    IVec2::new(0, 1),
+    IVec2::new(-1, -1),
+    IVec2::new(1, -1),
+    IVec2::new(-1, 1),
+    IVec2::new(1, 1),
+];
 
 /// Lays a colour over a picture: coverage · opacity of it, in linear light.
 fn lay_over(picture: &mut Picture, coverage: &[f32], color: LinearRgba, encoding: Encoding) {

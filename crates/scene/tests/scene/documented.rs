@@ -149,6 +149,7 @@ fn the_page_has_the_keys_defaults_and_ranges_of_the_schema() {
         differences(&table(&page, "## Camera", 0), &definitions["CameraEntry"], "camera"),
         differences(&table(&page, "## Environment", 0), &definitions["EnvironmentEntry"], "environment"),
         differences(&table(&page, "## Objects", 0), &definitions["ObjectEntry"], "object"),
+        differences(&table(&page, "### Edges", 0), &definitions["EdgesEntry"], "edges"),
         differences(&table(&page, "### Solids", 0), &definitions["SolidEntry"], "solid"),
         differences(&table(&page, "### Transforms", 0), &definitions["TransformParts"], "transform"),
         differences(&table(&page, "### Materials", 0), &material(&schema), "material"),
