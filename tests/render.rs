@@ -46,6 +46,7 @@ mod render {
     mod quantities;
     mod random;
     mod samples;
+    mod scalars;
     mod scene;
     mod sides;
     mod slivers;
