@@ -140,6 +140,19 @@ fn baked_occlusion() {
 }
 
 #[test]
+fn scalars() {
+    let file = folder("scalars").join("scalars.png");
+    draw("scalars", &file, &[]);
+    let picture = picture(&file);
+    // The map's ends are both there: violet valleys and yellow hills, and blue and red faces of the ball.
+    let count = |is: fn([i32; 3]) -> bool| picture.pixels().filter(|pixel| is(pixel.0.map(i32::from))).count();
+    assert!(count(|[r, g, b]| r > b + 80 && g > b + 80) > 200, "yellow");
+    assert!(count(|[r, g, b]| r > g + 30 && b > g + 40) > 200, "violet");
+    assert!(count(|[r, g, b]| r > g + 100 && r > b + 60) > 30, "red");
+    assert!(count(|[r, g, b]| b > r + 80 && b > g + 20) > 30, "blue");
+}
+
+#[test]
 fn isometric() {
     let file = folder("isometric").join("isometric.png");
     draw("isometric", &file, &[]);

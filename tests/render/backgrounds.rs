@@ -35,11 +35,13 @@ fn a_transparent_picture_over_any_colour_is_the_picture_drawn_over_it() {
         stage.set(&Scene::in_eye_space());
         stage.frame();
         let blends = stage.blends_floats();
-        let mut draw = |background, background_below| {
-            let camera = Camera { background, background_below, samples, ..Camera::default() };
+        let mut draw = |background: Option<LinearRgba>, background_below| {
+            let background_opacity = if background.is_some() { 1.0 } else { 0.0 };
+            let background = background.unwrap_or(LinearRgba::BLACK);
+            let camera = Camera { background, background_below, background_opacity, samples, ..Camera::default() };
             stage.draw(&scene(camera, blends))
         };
-        let clear = draw(LinearRgba::NONE, None);
+        let clear = draw(None, None);
         assert_eq!(clear.get_pixel(0, 0).0, [0.0; 4]);
         assert_eq!(clear.get_pixel(28, 20).0[3], 1.0);
         let partly = clear.pixels().filter(|pixel| pixel.0[3] > 0.0 && pixel.0[3] < 1.0).count();
@@ -51,8 +53,8 @@ fn a_transparent_picture_over_any_colour_is_the_picture_drawn_over_it() {
             LinearRgba::rgb(mix(above.red, below.red), mix(above.green, below.green), mix(above.blue, below.blue))
         };
         for (name, opaque, expected) in [
-            ("one colour", draw(above, None), over(&clear, |_| above)),
-            ("two colours", draw(above, Some(below)), over(&clear, at)),
+            ("one colour", draw(Some(above), None), over(&clear, |_| above)),
+            ("two colours", draw(Some(above), Some(below)), over(&clear, at)),
         ] {
             for ((x, y, found), expected) in opaque.enumerate_pixels().zip(expected.pixels()) {
                 // Two roundings of numbers up to 1, and a division by an opacity of a quarter or more.
@@ -67,10 +69,10 @@ fn a_transparent_picture_over_any_colour_is_the_picture_drawn_over_it() {
 #[test]
 fn the_reference_has_the_same_backgrounds() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
-    let below = LinearRgba { alpha: 0.25, ..LinearRgba::rgb(0.8, 0.1, 0.0) };
     let camera = Camera {
         background: LinearRgba::rgb(0.2, 0.9, 0.4),
-        background_below: Some(below),
+        background_below: Some(LinearRgba::rgb(0.8, 0.1, 0.0)),
+        background_opacity: 0.25,
         encoding: Encoding::Raw,
         ..Camera::default()
     };
@@ -89,8 +91,8 @@ fn the_reference_has_the_same_backgrounds() {
 #[test]
 fn bytes_are_encoded_after_what_is_behind_is_known() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
-    let background = LinearRgba { alpha: 0.5, ..LinearRgba::rgb(0.5, 0.0, 1.0) };
-    stage.set(&scene(Camera { background, ..Camera::default() }, false));
+    let background = LinearRgba::rgb(0.5, 0.0, 1.0);
+    stage.set(&scene(Camera { background, background_opacity: 0.5, ..Camera::default() }, false));
     stage.pixels(Pixels::Byte);
     let picture = stage.bytes();
     assert_eq!(picture.get_pixel(0, 0).0, [188, 0, 255, 128]);
@@ -100,8 +102,7 @@ fn bytes_are_encoded_after_what_is_behind_is_known() {
 #[test]
 fn an_opacity_above_1_is_refused() {
     let mut stage = Stage::new(8, 6);
-    let background = LinearRgba { alpha: 1.5, ..LinearRgba::BLACK };
-    stage.set(&Scene { camera: Camera { background, ..Camera::default() }, ..Scene::in_eye_space() });
+    stage.set(&Scene { camera: Camera { background_opacity: 1.5, ..Camera::default() }, ..Scene::in_eye_space() });
     let error = stage.try_draw().expect_err("no opacity").to_string();
-    assert!(error.contains("background.alpha") && error.contains("0 to 1"), "{error}");
+    assert!(error.contains("background_opacity") && error.contains("0 to 1"), "{error}");
 }

@@ -37,9 +37,13 @@ fn a_border_covers_its_width_and_its_colour_is_the_one_given() {
     let square = stage.set(&plan().with(green_square(Vec3::new(0.0, 0.0, -5.0), 4.0)))[0];
     let rows: [(f32, f32, [f32; 4]); 3] =
         [(1.0, 1.0, [0.0, 0.5, 0.5, 0.0]), (2.0, 1.0, [0.0, 1.0, 1.0, 0.0]), (3.0, 0.5, [0.25, 0.5, 0.5, 0.25])];
-    for (width, alpha, expected) in rows {
-        let color = LinearRgba { alpha, ..RED };
-        stage.world().entity_mut(square).insert(Edges { color, width, ..Edges::new(WhichEdges::Boundary) });
+    for (width, opacity, expected) in rows {
+        stage.world().entity_mut(square).insert(Edges {
+            color: RED,
+            opacity,
+            width,
+            ..Edges::new(WhichEdges::Boundary)
+        });
         let picture = drawn(&mut stage);
         for (number, expected) in (28..32).zip(expected) {
             for (x, y) in [(number, 50), (50, number), (99 - number, 50), (50, 99 - number)] {

@@ -32,13 +32,15 @@ use crate::{Intensity, Projection, Viewer};
 pub struct Camera {
     /// How eye space falls onto the picture. Default: a perspective of 45° with its near plane at 0.1.
     pub projection: Projection,
-    /// Colour where nothing is drawn, linear RGB, each channel 0 to 10¹²; alpha is its opacity, 0 to 1, in pictures that
-    /// are taken, and 0 makes it transparent (windows are opaque). Default opaque black.
+    /// Colour where nothing is drawn, linear RGB, each channel 0 to 10¹²; alpha is ignored. Default black.
     pub background: LinearRgba,
-    /// The colour and opacity of the background at the lower edge of a picture, where it is another than at the upper
-    /// edge; between them it changes evenly, in linear light. In pictures that are taken: windows have the upper one
-    /// everywhere. Default none.
+    /// The colour of the background at the lower edge of a picture, where it is another than at the upper edge; between
+    /// them it changes evenly, in linear light. In pictures that are taken: windows have the upper one everywhere.
+    /// Default none.
     pub background_below: Option<LinearRgba>,
+    /// The opacity of the background, 0 to 1, in pictures that are taken: 0 makes it transparent. Windows are opaque.
+    /// Default 1.
+    pub background_opacity: f32,
     /// Whether `v` points toward the eye or is constant. Default [`Viewer::Local`].
     pub viewer: Viewer,
     /// Coverage samples a pixel. Default one.
@@ -55,6 +57,7 @@ impl Default for Camera {
             projection: Projection::default(),
             background: LinearRgba::BLACK,
             background_below: None,
+            background_opacity: 1.0,
             viewer: Viewer::default(),
             samples: Samples::default(),
             encoding: Encoding::default(),
@@ -165,10 +168,10 @@ impl Camera {
 
     /// Whether the background is one opaque colour.
     pub fn background_is_plain(&self) -> bool {
-        self.background.alpha >= 1.0 && self.background_below.is_none()
+        self.background_opacity >= 1.0 && self.background_below.is_none()
     }
 
-    /// The background at a height of the picture, from 0 at its upper edge to 1 at its lower one.
+    /// The background at a height of the picture, from 0 at its upper edge to 1 at its lower one; alpha is its opacity.
     pub fn background_at(&self, height: f64) -> LinearRgba {
         let (above, below) = (self.background, self.background_below.unwrap_or(self.background));
         let mix = |above: f32, below: f32| (f64::from(above) * (1.0 - height) + f64::from(below) * height) as f32;
@@ -176,7 +179,7 @@ impl Camera {
             red: mix(above.red, below.red),
             green: mix(above.green, below.green),
             blue: mix(above.blue, below.blue),
-            alpha: mix(above.alpha, below.alpha),
+            alpha: self.background_opacity,
         }
     }
 
@@ -188,11 +191,10 @@ impl Camera {
         let fields = Fields::for_owner("Camera");
         self.projection.validate_in(fields.inside("projection."))?;
         fields.color("background", self.background)?;
-        fields.within("background.alpha", self.background.alpha, Range::UNIT)?;
         if let Some(below) = self.background_below {
             fields.color("background_below", below)?;
-            fields.within("background_below.alpha", below.alpha, Range::UNIT)?;
         }
+        fields.within("background_opacity", self.background_opacity, Range::UNIT)?;
         self.intensity.validate()
     }
 }

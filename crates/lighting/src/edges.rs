@@ -30,8 +30,10 @@ use crate::range::Range;
 pub struct Edges {
     /// The edges that are drawn. Default: sharp ones, from 30° on, with the outline.
     pub which: WhichEdges,
-    /// The colour, linear RGB, each channel 0 to 10¹²; alpha is the opacity, 0 to 1. Default black.
+    /// The colour, linear RGB, each channel 0 to 10¹²; alpha is ignored. Default black.
     pub color: LinearRgba,
+    /// The opacity, 0 to 1. Default 1.
+    pub opacity: f32,
     /// The width in pixels, above 0. Default 1.5.
     pub width: f32,
     /// The parts that lie behind surfaces. Default: left out.
@@ -91,7 +93,7 @@ impl WhichEdges {
 impl Edges {
     /// Black lines of 1.5 pixels along these edges, hidden parts left out, over the surface.
     pub const fn new(which: WhichEdges) -> Self {
-        Self { which, color: LinearRgba::BLACK, width: 1.5, hidden: HiddenEdges::Omit, surface: true }
+        Self { which, color: LinearRgba::BLACK, opacity: 1.0, width: 1.5, hidden: HiddenEdges::Omit, surface: true }
     }
 
     /// Checks every field.
@@ -104,7 +106,7 @@ impl Edges {
             fields.within("which", angle, ANGLE)?;
         }
         fields.color("color", self.color)?;
-        fields.within("color.alpha", self.color.alpha, Range::UNIT)?;
+        fields.within("opacity", self.opacity, Range::UNIT)?;
         fields.within("width", self.width, Range::POSITIVE)
     }
 }

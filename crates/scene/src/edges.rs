@@ -2,7 +2,7 @@
 
 use std::ops::Bound::Included;
 
-use bevy_color::LinearRgba;
+use bevy_color::{ColorToComponents as _, LinearRgba};
 use halfway_lighting::{Choices, Edges, HiddenEdges, Range, WhichEdges};
 
 use crate::check::Limits;
@@ -35,15 +35,15 @@ impl Object for EdgesEntry {
 impl EdgesEntry {
     /// As a component.
     pub(crate) fn component(&self) -> Edges {
-        let Self { which, color: [red, green, blue], opacity, width, hidden, surface } = *self;
-        Edges { which, color: LinearRgba { red, green, blue, alpha: opacity }, width, hidden, surface }
+        let Self { which, color, opacity, width, hidden, surface } = *self;
+        Edges { which, color: LinearRgba::from_f32_array_no_alpha(color), opacity, width, hidden, surface }
     }
 }
 
 impl From<Edges> for EdgesEntry {
     fn from(edges: Edges) -> Self {
-        let Edges { which, color: LinearRgba { red, green, blue, alpha }, width, hidden, surface } = edges;
-        Self { which, color: [red, green, blue], opacity: alpha, width, hidden, surface }
+        let Edges { which, color, opacity, width, hidden, surface } = edges;
+        Self { which, color: color.to_f32_array_no_alpha(), opacity, width, hidden, surface }
     }
 }
 

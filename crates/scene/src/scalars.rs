@@ -46,7 +46,7 @@ pub struct Scalars {
     pub map: ColorMap,
     /// The colour of numbers that are not finite, linear RGB. Default a light grey.
     pub missing: LinearRgba,
-    /// How many lines of equal numbers are drawn, evenly between the ends of the range, each as wide as a 250th of it.
+    /// How many lines of equal numbers are drawn, evenly between the ends of the range, each as wide as a 125th of it.
     /// At most 100. Default 0.
     pub isolines: u32,
 }
@@ -214,11 +214,11 @@ impl Scalars {
                 return missing;
             }
             let share = f64::from(x) / f64::from(TEXELS - 1);
-            // Lines lie at whole numbers, and are two texels to each side of them.
+            // Lines lie at whole numbers, and are four texels to each side of them.
             let line = share * f64::from(self.isolines + 1);
             let from_line = (line - line.round()).abs() / f64::from(self.isolines + 1) * f64::from(TEXELS - 1);
             let is_line =
-                self.isolines > 0 && from_line <= 2.0 && (0.5..f64::from(self.isolines) + 0.5).contains(&line);
+                self.isolines > 0 && from_line <= 4.0 && (0.5..f64::from(self.isolines) + 0.5).contains(&line);
             let [red, green, blue] = self.map.at(share);
             let LinearRgba { red, green, blue, .. } = bevy_color::Srgba::rgb_u8(red, green, blue).into();
             let dim = if is_line { 0.15 } else { 1.0 };

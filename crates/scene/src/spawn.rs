@@ -115,12 +115,11 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Ent
         let [width, height] = scene.size;
         framing_camera(outline(objects), width as f32 / height as f32)
     });
-    let alpha = scene.background_opacity;
-    let background = |color| LinearRgba { alpha, ..LinearRgba::from_f32_array_no_alpha(color) };
     let camera = Camera {
         projection: Projection::Perspective { fov_y: entry.fov_y_deg.to_radians(), near: entry.near },
-        background: background(scene.background),
-        background_below: scene.background_below.map(background),
+        background: LinearRgba::from_f32_array_no_alpha(scene.background),
+        background_below: scene.background_below.map(LinearRgba::from_f32_array_no_alpha),
+        background_opacity: scene.background_opacity,
         viewer: scene.viewer,
         samples: if scene.samples == 4 { Samples::Four } else { Samples::One },
         encoding: scene.output,

@@ -48,7 +48,7 @@ pub fn draw_edges(world: &mut World, picture: &mut Picture, surfaces: &Surfaces)
         for object in same {
             drawing.add(object, &mut coverage);
         }
-        lay_over(picture, &coverage, same[0].edges.color, encoding);
+        lay_over(picture, &coverage, &same[0].edges, encoding);
     }
     Ok(())
 }
@@ -244,13 +244,13 @@ const AROUND: [IVec2; 9] = [
 ];
 
 /// Lays a colour over a picture: coverage · opacity of it, in linear light.
-fn lay_over(picture: &mut Picture, coverage: &[f32], color: LinearRgba, encoding: Encoding) {
-    let LinearRgba { red, green, blue, alpha } = color;
+fn lay_over(picture: &mut Picture, coverage: &[f32], edges: &Edges, encoding: Encoding) {
+    let (LinearRgba { red, green, blue, .. }, opacity) = (edges.color, edges.opacity);
     let ink = [red, green, blue];
     match picture {
         Picture::Float(image) => {
             for (pixel, &share) in image.pixels_mut().zip(coverage) {
-                let share = share * alpha;
+                let share = share * opacity;
                 if share > 0.0 {
                     let [r, g, b, a] = pixel.0;
                     let mixed = [0, 1, 2].map(|c| [r, g, b][c] + share * (ink[c] - [r, g, b][c]));
@@ -261,7 +261,7 @@ fn lay_over(picture: &mut Picture, coverage: &[f32], color: LinearRgba, encoding
         Picture::Byte(image) => {
             let decoded: [f64; 256] = std::array::from_fn(|byte| encoding.decode(byte as f64 / 255.0));
             for (pixel, &share) in image.pixels_mut().zip(coverage) {
-                let share = f64::from(share * alpha);
+                let share = f64::from(share * opacity);
                 if share > 0.0 {
                     for (channel, ink) in pixel.0.iter_mut().zip(ink) {
                         let before = decoded[usize::from(*channel)];

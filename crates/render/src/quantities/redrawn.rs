@@ -157,6 +157,7 @@ impl Redrawn {
         let camera = Camera {
             background: if shows == Shows::Background { LinearRgba::WHITE } else { LinearRgba::BLACK },
             background_below: None,
+            background_opacity: 1.0,
             samples: if shows == Shows::Numbers { Samples::One } else { camera.samples },
             encoding: Encoding::Raw,
             intensity: Intensity::Clamp,
