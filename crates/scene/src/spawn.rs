@@ -115,7 +115,7 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Ent
         framing_camera(outline(objects), width as f32 / height as f32)
     });
     let camera = Camera {
-        projection: Projection::Perspective { fov_y: entry.fov_y_deg.to_radians(), near: entry.near },
+        projection: Projection::perspective(entry.fov_y_deg.to_radians()).with_near(entry.near),
         background: LinearRgba::from_f32_array_no_alpha(scene.background),
         viewer: scene.viewer,
         samples: if scene.samples == 4 { Samples::Four } else { Samples::One },
