@@ -3,6 +3,7 @@
 //! The format is described in `docs/scene-format.md`, and as a JSON schema in `docs/scene.schema.json`
 //! ([`json_schema`]). [`SceneFile`] is the file as a value, and [`spawn()`] turns it into entities.
 
+mod animation;
 mod check;
 mod defaults;
 mod described;
@@ -22,6 +23,7 @@ mod material;
 mod mesh;
 mod model_root;
 mod models;
+mod named;
 mod object;
 mod placement;
 mod retired;
@@ -31,6 +33,7 @@ mod spawn;
 mod transform;
 mod view;
 
+pub use animation::{AnimatedKey, AnimationPlugin, AnimationSystems, Interpolation, KeyFrame, SceneTime, TrackEntry};
 pub use defaults::{default_lights, framing_camera};
 pub use environment::EnvironmentEntry;
 pub use error::SceneError;
@@ -40,9 +43,10 @@ pub use light::{AttachEntry, ConeEntry, LightEntry, LightKind};
 pub use material::MaterialEntry;
 pub use mesh::{InlineMesh, MeshEntry};
 pub use model_root::{ModelError, ModelFailed, ModelParts, ModelRoot, spawn_model};
+pub use named::NameOrIndex;
 pub use object::ObjectEntry;
 pub use schema::json_schema;
 pub use solid::SolidEntry;
-pub use spawn::{Spawned, spawn};
+pub use spawn::{Spawned, spawn, spawn_seen_from};
 pub use transform::{TransformEntry, TransformMatrix, TransformParts};
-pub use view::CameraEntry;
+pub use view::{CameraEntry, IntrinsicsEntry};

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
 use halfway_asset::Handle;
-use halfway_mesh::{Mesh, Model, NormalReport, Normals, SourceMap, SourceMaterial};
+use halfway_mesh::{Mesh, Model, NormalReport, Normals, SourceCamera, SourceMap, SourceMaterial};
 use halfway_texture::{FarNormals, MapKind, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::error::SceneError;
@@ -20,6 +20,8 @@ use halfway_lighting::{AlphaMode, LightComponent};
 pub(crate) struct ObjectShape {
     pub(crate) parts: Vec<ShapePart>,
     pub(crate) lights: Vec<ShapeLight>,
+    /// The model's cameras.
+    pub(crate) cameras: Vec<SourceCamera>,
 }
 
 /// One mesh of a shape, where it stands inside the object.
@@ -53,11 +55,13 @@ pub(crate) struct Shapes<'a> {
     base_dir: &'a Path,
     loaded: HashMap<String, Rc<ObjectShape>>,
     pub(crate) warnings: Vec<String>,
+    /// Warnings about models whose cameras are not used.
+    pub(crate) unused_cameras: Vec<String>,
 }
 
 impl<'a> Shapes<'a> {
     pub(crate) fn new(base_dir: &'a Path) -> Self {
-        Self { base_dir, loaded: HashMap::new(), warnings: Vec::new() }
+        Self { base_dir, loaded: HashMap::new(), warnings: Vec::new(), unused_cameras: Vec::new() }
     }
 
     /// The shape of object `index`; equal ones are loaded once.
@@ -116,14 +120,15 @@ impl<'a> Shapes<'a> {
         self.warn_of_normals(&format!("objects[{index}]"), report);
         let part =
             ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None, maps: Vec::new() };
-        Ok(ObjectShape { parts: vec![part], lights: Vec::new() })
+        Ok(ObjectShape { parts: vec![part], lights: Vec::new(), cameras: Vec::new() })
     }
 
     fn model(&mut self, model: Model, path: &Path, normals: Normals, index: usize) -> Result<ObjectShape, SceneError> {
         let file = path.display();
         self.warnings.extend(model.warnings.iter().map(|warning| format!("{file}: {warning}")));
         if !model.cameras.is_empty() {
-            self.warnings.push(format!("{file}: {} cameras are not used; a scene has its own", model.cameras.len()));
+            self.unused_cameras
+                .push(format!("{file}: {} cameras are not used; a scene has its own", model.cameras.len()));
         }
         let maps = self.all_maps(&model, &file.to_string());
         let materials = model.materials.iter().map(|material| {
@@ -153,7 +158,7 @@ impl<'a> Shapes<'a> {
             }
             parts.push(ShapePart { name: part.name, mesh, object_from_part: part.world_from_part, own, maps: shown });
         }
-        Ok(ObjectShape { parts, lights })
+        Ok(ObjectShape { parts, lights, cameras: model.cameras })
     }
 
     fn material(&mut self, source: &SourceMaterial, at: String, index: usize) -> Result<ModelMaterial, SceneError> {

@@ -3,7 +3,8 @@
 use halfway_lighting::{Faces, Range, Reflectance, Shading, Tolerance, VertexColors};
 use halfway_mesh::Normals;
 
-use crate::check::Limits;
+use crate::animation::{Animate, TrackEntry};
+use crate::check::{Check, Limits};
 use crate::keys::{Object, keys};
 use crate::maps::MapsEntry;
 use crate::material::MaterialEntry;
@@ -19,7 +20,7 @@ keys! {
         /// The shape. Required.
         mesh: MeshEntry,
         [optional]
-        /// The name that lights are attached by; no two objects have the same. null: none.
+        /// Its name, by which lights are attached; no other camera, light or object has the same. null: none.
         name: Option<String> = None,
         /// How the mesh gets its normals.
         normals: Normals = Normals::default(),
@@ -41,6 +42,8 @@ keys! {
         maps: Option<MapsEntry> = None,
         /// The solid that the object is cut from, whose color multiplies ambient and diffuse light; null: nothing.
         solid: Option<SolidEntry> = None,
+        /// How translation, rotation and scale change in time.
+        animation: Vec<TrackEntry> = Vec::new(),
         [left out]
         /// Which sides are shown. Left out: `front`, or `both` for parts with a double-sided material of the model's
         /// own.
@@ -56,4 +59,8 @@ keys! {
 
 impl Object for ObjectEntry {
     const EXPECTED: &'static str = "an object with the keys of a scene's object";
+
+    fn check_whole(&self) -> Check {
+        self.transform.check_tracks(&self.animation)
+    }
 }

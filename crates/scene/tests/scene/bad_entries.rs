@@ -88,6 +88,12 @@ pub(super) const LIGHTS: &[BadEntry] = &[
         52,
         r#".attach.object`: is "pot"; no object of the scene has that name"#,
     ),
+    (r#""kind": "point", "attach": {"object": 2}"#, 52, ".attach.object`: is 2; the scene has 0 objects"),
+    (
+        r#""kind": "directional", "animation": [{"of": "position", "keys": [[0, [0, 0, 0]]]}]"#,
+        58,
+        r#".animation[0].of`: is "position"; expected a key of this light: direction, ambient, diffuse, specular"#,
+    ),
 ];
 
 /// The keys of an object, the column of its error, and the message about it.

@@ -2,10 +2,12 @@
 
 #![allow(clippy::float_cmp, reason = "what is read and written has to be exact")]
 
+mod animation;
 mod bad;
 mod bad_entries;
 mod bad_keys;
 mod bad_values;
+mod cameras;
 mod defaults;
 mod documented;
 mod environment;
