@@ -7,6 +7,7 @@ mod animation;
 mod check;
 mod defaults;
 mod described;
+mod displacement;
 mod entry;
 mod environment;
 mod error;
@@ -30,11 +31,13 @@ mod retired;
 mod schema;
 mod solid;
 mod spawn;
+mod surface;
 mod transform;
 mod view;
 
 pub use animation::{AnimatedKey, AnimationPlugin, AnimationSystems, Interpolation, KeyFrame, SceneTime, TrackEntry};
 pub use defaults::{default_lights, framing_camera};
+pub use displacement::DisplacementEntry;
 pub use environment::EnvironmentEntry;
 pub use error::SceneError;
 pub use file::SceneFile;
@@ -48,5 +51,9 @@ pub use object::ObjectEntry;
 pub use schema::json_schema;
 pub use solid::SolidEntry;
 pub use spawn::{Spawned, spawn, spawn_seen_from};
+pub use surface::{
+    BezierEntry, CapsuleEntry, ConeMeshEntry, CylinderEntry, DiscEntry, EllipsoidEntry, HeightFieldEntry,
+    HyperboloidEntry, HyperboloidSheetEntry, ParaboloidEntry, PolynomialEntry, SurfaceEntry, TorusEntry,
+};
 pub use transform::{TransformEntry, TransformMatrix, TransformParts};
 pub use view::{CameraEntry, IntrinsicsEntry};

@@ -5,6 +5,7 @@ use halfway_mesh::Normals;
 
 use crate::animation::{Animate, TrackEntry};
 use crate::check::{Check, Limits};
+use crate::displacement::DisplacementEntry;
 use crate::keys::{Object, keys};
 use crate::maps::MapsEntry;
 use crate::material::MaterialEntry;
@@ -24,6 +25,8 @@ keys! {
         name: Option<String> = None,
         /// How the mesh gets its normals.
         normals: Normals = Normals::default(),
+        /// The image that moves the vertices, before they get their normals; null: none.
+        displacement: Option<DisplacementEntry> = None,
         /// Where the mesh is in the world.
         transform: TransformEntry = TransformEntry::default(),
         /// The material; null: the model's own, or the default values where it has none.

@@ -85,7 +85,7 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         (&["render", "fine.json", "-o", "a.png", "--frames", "3..3"], &["A below B"]),
         (&["render", "fine.json", "-o", "a.png", "--frames", "0..3"], &["fine.json has no animation", "--turntable N"]),
         (&["render", "fine.json", "-o", "a.png", "--time", "1"], &["--time: fine.json has no animation"]),
-        (&["render", "fine.json", "-o", "a.png", "--time", "-1"], &["--time", "0 or more"]),
+        (&["render", "fine.json", "-o", "a.png", "--time=-1"], &["--time", "0 or more"]),
         (&["render", "fine.json", "-o", "a.png", "--fps", "10"], &["--fps", "--frames or --turntable"]),
         (&["render", "fine.json", "-o", "a.png", "--turntable", "0"], &["--turntable", "1..=100000"]),
         (&["render", "fine.json", "-o", "a.png", "--camera", "top"], &["--camera", "\"top\"", "fine.json", "any"]),

@@ -20,4 +20,5 @@ mod past_failures;
 mod retired;
 mod solid;
 mod spawned;
+mod surfaces;
 mod unshown;
