@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 use halfway::prelude::*;
-use halfway::scene::{CameraEntry, SceneError, SceneFile, Spawned, spawn, spawn_seen_from};
+use halfway::scene::{SceneError, SceneFile, Spawned, spawn, spawn_seen_from};
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
@@ -39,27 +39,24 @@ impl SceneInput {
         let mut input = Self::open(&args.input)?;
         input.camera.clone_from(&args.camera);
         let scene = &mut input.scene;
-        fn each(scene: &mut SceneFile, change: impl FnMut(&mut CameraEntry)) {
-            scene.all_cameras_mut().for_each(change);
-        }
         if let Some(shading) = args.shading() {
             scene.shading = shading;
-            each(scene, |camera| camera.shading = None);
+            scene.all_cameras_mut().for_each(|camera| camera.shading = None);
             scene.objects.iter_mut().for_each(|object| object.shading = None);
         }
         if let Some(reflectance) = args.reflectance {
             scene.reflectance = reflectance;
-            each(scene, |camera| camera.reflectance = None);
+            scene.all_cameras_mut().for_each(|camera| camera.reflectance = None);
             scene.objects.iter_mut().for_each(|object| object.reflectance = None);
         }
         if let Some(tolerance) = args.tolerance.given() {
             scene.tolerance = Some(tolerance);
-            each(scene, |camera| camera.tolerance = None);
+            scene.all_cameras_mut().for_each(|camera| camera.tolerance = None);
             scene.objects.iter_mut().for_each(|object| object.tolerance = None);
         }
         if let Some(samples) = args.samples {
             scene.samples = samples;
-            each(scene, |camera| camera.samples = None);
+            scene.all_cameras_mut().for_each(|camera| camera.samples = None);
         }
         if let Some(intensity) = args.intensity {
             scene.intensity = intensity;

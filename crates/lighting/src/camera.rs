@@ -148,7 +148,8 @@ impl Camera {
         let upright = direction.cross(Vec3::Y).length_squared() > 1e-9;
         let up = if upright { Vec3::Y } else { Vec3::Z * direction.y };
         let mut place = Transform::from_translation(center + z * direction).looking_to(direction, up);
-        if projection.film().shift != [0.0; 2] {
+        // In the middle there is nothing to round.
+        if x.abs() + y.abs() > 0.0 {
             place.translation -= place.rotation * Vec3::new(x, y, 0.0);
         }
         (Self { projection, ..self }, place)

@@ -122,7 +122,7 @@ impl Projection {
     /// The perspective of a camera that was calibrated: its focal lengths [fx, fy] and its principal point [cx, cy] in
     /// pixels of a picture that is [width, height] pixels large. Pixels count from the upper left corner of the picture,
     /// x to the right and y down; the middle of the first pixel is at (0.5, 0.5). A program that puts it at (0, 0), as
-    /// OpenCV does, has principal points that are less by 0.5.
+    /// `OpenCV` does, has principal points that are less by 0.5.
     ///
     /// In a picture of another size with the same proportions the same is seen; of other proportions, more
     /// ([`Film::aspect`]). The near plane is at 0.1. Poses of computer vision have the camera look along +Z with +Y
@@ -147,7 +147,7 @@ impl Projection {
             aspect: Some((width * pixel_aspect / height) as f32),
             pixel_aspect: pixel_aspect as f32,
         };
-        Self::Perspective { fov_y: (2.0 * (0.5 * height / fy).atan()) as f32, near: 0.1, film }
+        Self::Perspective { fov_y: (2.0 * (0.5 * height / fy).arc_tangent()) as f32, near: 0.1, film }
     }
 
     /// A perspective whose picture shows, in the plane at the depth `near`, x from `left` to `right` and y from `bottom`
@@ -170,7 +170,7 @@ impl Projection {
             aspect: Some(((right - left) / height) as f32),
             ..Film::DEFAULT
         };
-        Self::Perspective { fov_y: (2.0 * (0.5 * height / f64::from(near)).atan()) as f32, near, film }
+        Self::Perspective { fov_y: (2.0 * (0.5 * height / f64::from(near)).arc_tangent()) as f32, near, film }
     }
 
     /// Depth of the near plane in world units.

@@ -312,7 +312,9 @@ pub(crate) trait Animate: Clone {
     /// The entry at a time in seconds.
     fn at(&self, tracks: &[TrackEntry], time: f64) -> Self {
         let mut entry = self.clone();
-        tracks.iter().for_each(|track| entry.set(track.of, track.at(time)));
+        for track in tracks {
+            entry.set(track.of, track.at(time));
+        }
         entry
     }
 

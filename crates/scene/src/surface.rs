@@ -1,6 +1,5 @@
 //! Surfaces by formula in scene files, each with its name, its lengths and how finely it is cut into triangles.
 
-use std::ops::Bound::Included;
 use std::path::{Path, PathBuf};
 
 use bevy_math::{DVec3, Vec3};
@@ -313,11 +312,17 @@ impl SurfaceEntry {
         if matches!(self, Self::HeightField(HeightFieldEntry { path: Some(_), heights: None, .. })) {
             return Ok(());
         }
-        match self.surface(Path::new("")) {
-            Ok((surface, _)) => surface.validate().map_err(SurfaceFault::from),
-            Err(fault) => Err(fault),
+        let made = self.surface(Path::new(""));
+        if let Ok((surface, Tessellation::Count { rows, columns })) = &made {
+            let counts = [("rows", *rows), ("columns", *columns)].into_iter().zip(surface.least_counts());
+            for ((key, count), least) in counts {
+                if count < least {
+                    let message = format!("is {count}; expected at least {least} for this surface");
+                    return Err(KeyProblem::new(format!("{}.{key}", self.name()), message));
+                }
+            }
         }
-        .map_err(|fault| match fault {
+        made.and_then(|(surface, _)| Ok(surface.validate()?)).map_err(|fault| match fault {
             SurfaceFault::Surface(SurfaceError { field, value, expected, .. }) => {
                 // Fields of one number of a vector, and counts, which a file has as lists.
                 let (key, counts) = match (self, field) {

@@ -160,7 +160,7 @@ keys! {
         reflectance: Option<Reflectance> = None,
         /// Coverage samples a pixel, 1 or 4; null: the scene's.
         samples: Option<u32> = None => Limits::OneOf(&[1, 4], "expected 1 or 4"),
-        /// How its keys change in time: position, target, up, and fov_y_deg or height.
+        /// How its keys change in time: position, target, up, and `fov_y_deg` or `height`.
         animation: Vec<TrackEntry> = Vec::new(),
         [left out]
         /// Makes the camera orthographic: how many world units the picture shows from its lower to its upper edge, above
@@ -175,7 +175,7 @@ keys! {
 
 keys! {
     /// `intrinsics`: the perspective of a calibrated camera, in pixels from the upper left corner of its picture, x to the
-    /// right and y down; the middle of the first pixel is at (0.5, 0.5). A program that puts it at (0, 0), as OpenCV does,
+    /// right and y down; the middle of the first pixel is at (0.5, 0.5). A program that puts it at (0, 0), as `OpenCV` does,
     /// has centers that are less by 0.5.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct IntrinsicsEntry {

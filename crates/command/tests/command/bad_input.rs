@@ -83,14 +83,6 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         (&["render", "fine.json", "-o", "a.png", "--size", "0x9"], &["0x9"]),
         (&["render", "fine.json", "-o", "a.png", "--size", "99999x9"], &["99999x9"]),
         (&["render", "fine.json", "-o", "a.png", "--frames", "3..3"], &["A below B"]),
-        (&["render", "fine.json", "-o", "a.png", "--frames", "0..3"], &["fine.json has no animation", "--turntable N"]),
-        (&["render", "fine.json", "-o", "a.png", "--time", "1"], &["--time: fine.json has no animation"]),
-        (&["render", "fine.json", "-o", "a.png", "--time=-1"], &["--time", "0 or more"]),
-        (&["render", "fine.json", "-o", "a.png", "--fps", "10"], &["--fps", "--frames or --turntable"]),
-        (&["render", "fine.json", "-o", "a.png", "--turntable", "0"], &["--turntable", "1..=100000"]),
-        (&["render", "fine.json", "-o", "a.png", "--camera", "top"], &["--camera", "\"top\"", "fine.json", "any"]),
-        (&["render", "two.json", "-o", "a.png", "--camera", "top"], &["\"top\"; there are 0, 1 \"side\""]),
-        (&["verify", "two.json", "--camera", "2"], &["\"2\"; there are 0, 1 \"side\""]),
         (&["render", "fine.json", "-o", "a.png", "--shading", "cel"], &["cel", "gouraud"]),
         (&["render", "fine.json", "-o", "fine.json/a.png"], &["fine.json/a.png"]),
         (&["render", "fine.json", "-o", "a.png", "--surface"], &["--reference"]),
@@ -114,7 +106,7 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         (&["convert", "fine.obj", "b.glb", "--weld=9"], &["fine.obj", "no triangle is left"]),
         (&["paint"], &["paint"]),
     ];
-    for (arguments, expected) in cases {
+    for (arguments, expected) in cases.iter().chain(TIMES_AND_CAMERAS) {
         let output = halfway(&folder, arguments);
         let error = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
@@ -214,6 +206,18 @@ fn a_signal_leaves_no_partial_file() {
         assert_eq!((status.code(), files()), (Some(130), 0), "{signal}: {status:?}");
     }
 }
+
+/// Command lines about times and cameras, and parts of their errors.
+const TIMES_AND_CAMERAS: &[(&[&str], &[&str])] = &[
+    (&["render", "fine.json", "-o", "a.png", "--frames", "0..3"], &["fine.json has no animation", "--turntable N"]),
+    (&["render", "fine.json", "-o", "a.png", "--time", "1"], &["--time: fine.json has no animation"]),
+    (&["render", "fine.json", "-o", "a.png", "--time=-1"], &["--time", "0 or more"]),
+    (&["render", "fine.json", "-o", "a.png", "--fps", "10"], &["--fps", "--frames or --turntable"]),
+    (&["render", "fine.json", "-o", "a.png", "--turntable", "0"], &["--turntable", "1..=100000"]),
+    (&["render", "fine.json", "-o", "a.png", "--camera", "top"], &["--camera", "\"top\"", "fine.json", "any"]),
+    (&["render", "two.json", "-o", "a.png", "--camera", "top"], &["\"top\"; there are 0, 1 \"side\""]),
+    (&["verify", "two.json", "--camera", "2"], &["\"2\"; there are 0, 1 \"side\""]),
+];
 
 const SCENES: &[(&str, &str)] = &[
     ("fine.json", r#"{"objects": [{"mesh": {"teapot": {"divisions": 2}}}]}"#),

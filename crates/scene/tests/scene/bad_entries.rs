@@ -118,6 +118,7 @@ pub(super) const OBJECTS: &[BadEntry] = &[
     ),
     (r#""mesh": {"torus": {"tube": 0}}"#, 42, ".mesh.torus.tube`: is 0; expected a length from 1e-30 to 1e30"),
     (r#""mesh": {"torus": {"tube": 2}}"#, 42, ".mesh.torus.tube`: is 2; "),
+    (r#""mesh": {"torus": {"rows": 2}}"#, 42, ".mesh.torus.rows`: is 2; expected at least 3 for this surface"),
     (r#""mesh": {"cone": {"rows": 4000}}"#, 41, ".mesh.cone.rows`: is 4000; expected 1 to 2048"),
     (
         r#""mesh": {"bezier": {"points": [[[0, 0, 0]]]}}"#,
