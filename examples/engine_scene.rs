@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
-    let projection = Projection::Perspective { fov_y: FIELD_OF_VIEW, near: NEAR };
+    let projection = Projection::perspective(FIELD_OF_VIEW).with_near(NEAR);
     let camera = Camera { projection, ..Camera::default() };
     commands.spawn((camera, Transform::from_translation(EYE).looking_at(AT, Vec3::Y)));
     commands.spawn((Mesh3d(meshes.add(Teapot::new(16))), Material::BRASS, Shading::Phong));

@@ -7,13 +7,14 @@ use bevy_transform::TransformPlugin;
 use halfway_lighting::LightingPlugin;
 use halfway_mesh::MeshPlugin;
 use halfway_render::RenderPlugin;
+use halfway_scene::AnimationPlugin;
 use halfway_texture::TexturePlugin;
 
 use crate::demo::Demo;
 use halfway_record::HeadlessPlugin;
 
-/// Everything that a lit scene needs: tasks, assets, time, transforms, meshes, lighting, rendering, and a window where
-/// the feature `window` is on. Each plugin also works alone.
+/// Everything that a lit scene needs: tasks, assets, time, transforms, meshes, lighting, rendering, animations of scene
+/// files, and a window where the feature `window` is on. Each plugin also works alone.
 ///
 /// The group does not replace plugins of bevy that the app already has: add your own before the group.
 ///
@@ -63,7 +64,12 @@ impl HalfwayPlugins {
     /// }
     /// ```
     pub fn reference() -> PluginGroupBuilder {
-        PluginGroupBuilder::start::<Self>().add(FoundationPlugin).add(MeshPlugin).add(LightingPlugin).add(TexturePlugin)
+        PluginGroupBuilder::start::<Self>()
+            .add(FoundationPlugin)
+            .add(MeshPlugin)
+            .add(LightingPlugin)
+            .add(TexturePlugin)
+            .add(AnimationPlugin)
     }
 
     /// The group for a demo program: a window, or, with `--headless OUT.png` on the command line, pictures on disk.

@@ -234,7 +234,7 @@ fn every_field_of_view_and_roll_is_projected_right() {
                 .with(Thing::square(Vec3::NEG_Z, Vec3::Z, 50.0))
                 .lit(Lamp::directional(directional_light(), Vec3::new(-0.3, -0.5, -1.0)));
             scene.eye.rotation *= Quat::from_rotation_z(roll);
-            scene.camera.projection = Projection::Perspective { fov_y, near: 1e-2 };
+            scene.camera.projection = Projection::perspective(fov_y).with_near(1e-2);
             assert_as_expected(&format!("fov {fov_y}, roll {roll}"), &mut stage, &scene);
         }
     }

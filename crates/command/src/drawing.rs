@@ -32,6 +32,10 @@ pub(crate) struct DrawingArgs {
     /// model]
     #[arg(long, value_name = "clamp|renormalise[=SHARE]|reinhard[=WHITE]|aces", value_parser = parse_intensity)]
     pub(crate) intensity: Option<Intensity>,
+    /// The camera of this name, or the N-th, counted from 0: the scene's, then those of its models [default: the scene's
+    /// first, or one that frames everything]
+    #[arg(long, value_name = "NAME|N")]
+    pub(crate) camera: Option<String>,
     #[command(flatten)]
     pub(crate) tolerance: ToleranceArgs,
     #[command(flatten)]

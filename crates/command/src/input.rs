@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 use halfway::prelude::*;
-use halfway::scene::{SceneError, SceneFile, Spawned, spawn};
+use halfway::scene::{SceneError, SceneFile, Spawned, spawn, spawn_seen_from};
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
@@ -19,6 +19,8 @@ pub(crate) struct SceneInput {
     /// The file as it was named, and whether it is a scene file.
     file: PathBuf,
     is_scene: bool,
+    /// The camera that the command line asks for.
+    camera: Option<String>,
     warned: Cell<bool>,
 }
 
@@ -29,23 +31,27 @@ impl SceneInput {
         let scene = if is_scene { SceneFile::read(file)? } else { SceneFile::for_model(file.to_owned()) };
         let folder = file.parent().filter(|_| is_scene).unwrap_or(Path::new(""));
         let warned = Cell::new(false);
-        Ok(Self { scene, base_dir: folder.to_owned(), file: file.to_owned(), is_scene, warned })
+        Ok(Self { scene, base_dir: folder.to_owned(), file: file.to_owned(), is_scene, camera: None, warned })
     }
 
     /// Reads the scene, with the options of the command line.
     pub(crate) fn read(args: &DrawingArgs) -> Result<Self, Failure> {
         let mut input = Self::open(&args.input)?;
+        input.camera.clone_from(&args.camera);
         let scene = &mut input.scene;
         if let Some(shading) = args.shading() {
             scene.shading = shading;
+            scene.all_cameras_mut().for_each(|camera| camera.shading = None);
             scene.objects.iter_mut().for_each(|object| object.shading = None);
         }
         if let Some(reflectance) = args.reflectance {
             scene.reflectance = reflectance;
+            scene.all_cameras_mut().for_each(|camera| camera.reflectance = None);
             scene.objects.iter_mut().for_each(|object| object.reflectance = None);
         }
         if let Some(tolerance) = args.tolerance.given() {
             scene.tolerance = Some(tolerance);
+            scene.all_cameras_mut().for_each(|camera| camera.tolerance = None);
             scene.objects.iter_mut().for_each(|object| object.tolerance = None);
         }
         if let Some(edges) = args.edges.given() {
@@ -54,6 +60,7 @@ impl SceneInput {
         }
         if let Some(samples) = args.samples {
             scene.samples = samples;
+            scene.all_cameras_mut().for_each(|camera| camera.samples = None);
         }
         if let Some(intensity) = args.intensity {
             scene.intensity = intensity;
@@ -76,7 +83,12 @@ impl SceneInput {
 
     /// Spawns the scene into the App's world, and prints its warnings, once, on standard error.
     pub(crate) fn spawn(&self, app: &mut App) -> Result<Spawned, Failure> {
-        let spawned = spawn(&self.scene, &self.base_dir, app.world_mut()).map_err(|error| self.failure(error))?;
+        let world = app.world_mut();
+        let spawned = match &self.camera {
+            None => spawn(&self.scene, &self.base_dir, world),
+            Some(camera) => spawn_seen_from(&self.scene, &self.base_dir, camera, world),
+        };
+        let spawned = spawned.map_err(|error| self.failure(error))?;
         if !self.warned.replace(true) {
             spawned.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
         }
@@ -91,6 +103,7 @@ impl SceneInput {
             SceneError::Value { key, .. } if !self.is_scene && key == "objects[0].mesh.path" => {
                 format!("{}: {EXPECTED}", self.file.display()).into()
             }
+            error @ SceneError::NoCamera { .. } => format!("--camera: {}: {error}", self.file.display()).into(),
             error => {
                 let text = error.to_string();
                 let text = text.strip_prefix("scene: ").unwrap_or(&text);

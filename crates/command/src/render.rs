@@ -6,9 +6,10 @@ use std::path::PathBuf;
 use clap::Args;
 use halfway::lighting::Choices;
 use halfway::prelude::*;
-use halfway::record::{Recording, ReferenceDrawing, record, record_with};
+use halfway::record::{FrameToDraw, Recording, ReferenceDrawing, record_with};
 use halfway::reference::Mode;
 use halfway::render::Adapter;
+use halfway::scene::SceneTime;
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
@@ -20,14 +21,23 @@ use crate::turntable::Turntable;
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     drawing: DrawingArgs,
-    /// The picture: .png or .exr; with --frames an animated PNG, or one file a frame if the name has a {}
+    /// The picture: .png or .exr; of several frames an animated PNG, or one file a frame if the name has a {}
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
     size: SizeArgs,
-    /// Frames A to B − 1 of a turn around the scene's upright axis, 3° a frame, 30 frames a second
+    /// Frames A to B − 1 of the scene's animation, frame f at f/--fps seconds; with --turntable, of the turn
     #[arg(long, value_name = "A..B", value_parser = parse_frames)]
     frames: Option<Range<u32>>,
+    /// Turn the camera once around the scene's upright axis in N frames
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_FRAMES)))]
+    turntable: Option<u32>,
+    /// Frames a second [default: 30]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    fps: Option<u16>,
+    /// Draw the scene's animation at T seconds
+    #[arg(long, value_name = "T", value_parser = parse_time, conflicts_with_all = ["frames", "turntable"])]
+    time: Option<f64>,
     /// Bits a channel: 8 or 16 in a PNG, 32 in an EXR [default: 8; 32]
     #[arg(long)]
     bits: Option<u32>,
@@ -79,16 +89,25 @@ impl Drawer {
         app
     }
 
-    fn record(&self, app: &mut App, recording: &Recording) -> Result<(), Failure> {
+    /// Records the frames; the first one of all shows the scene at `time`, in seconds.
+    fn record(&self, app: &mut App, recording: &Recording, time: f64) -> Result<(), Failure> {
         let frames = recording.frames.len() as u32;
+        let set_time = |app: &mut App, frame: FrameToDraw| {
+            app.insert_resource(SceneTime::At(time + f64::from(frame.number) / f64::from(recording.rate)));
+        };
         match self {
             Self::Adapter(_) => {
                 let progress = Progress::for_frames(frames);
-                record(app, recording, |done, _| progress.frame(done))?;
+                let draw = |app: &mut App, frame: FrameToDraw| {
+                    set_time(app, frame);
+                    Ok(render_picture(app)?)
+                };
+                record_with(app, recording, draw, |done, _| progress.frame(done))?;
             }
             Self::Reference(drawing) => {
                 let progress = Progress::for_tiles(frames);
-                let draw = |app: &mut App, frame: halfway::record::FrameToDraw| {
+                let draw = |app: &mut App, frame: FrameToDraw| {
+                    set_time(app, frame);
                     let index = frame.number - recording.frames.start;
                     drawing.picture(app, frame, &|done, of| progress.tile(index, done, of))
                 };
@@ -102,8 +121,14 @@ impl Drawer {
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let mut input = SceneInput::read(&args.drawing)?;
     let size = input.resize(args.size);
+    let turn = args.turntable.map(|frames| 0..frames);
+    let frames = args.frames.clone().or(turn);
+    if args.fps.is_some() && frames.is_none() {
+        return Err("--fps: expected --frames or --turntable beside it".to_owned().into());
+    }
     let recording = Recording {
-        frames: args.frames.clone().unwrap_or(0..1),
+        frames: frames.unwrap_or(0..1),
+        rate: args.fps.unwrap_or(30),
         size,
         bits: args.bits,
         contact_sheet: args.contact_sheet.clone(),
@@ -113,19 +138,33 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let drawer = Drawer::choose(args)?;
     let mut app = drawer.app(size);
     let spawned = input.spawn(&mut app)?;
-    if args.frames.is_some() {
-        // A full turn in 120 frames.
-        Turntable::turn(&mut app, spawned.camera, std::f32::consts::TAU / 120.0);
+    if let Some(frames) = args.turntable {
+        Turntable::turn(&mut app, spawned.camera, std::f32::consts::TAU / frames as f32);
+    } else if !spawned.is_animated {
+        let still = |option: &str| format!("{option}: {} has no animation", args.drawing.input.display());
+        if args.frames.is_some() {
+            return Err(format!("{}; --turntable N turns the camera around it", still("--frames")).into());
+        }
+        if args.time.is_some() {
+            return Err(still("--time").into());
+        }
     }
-    drawer.record(&mut app, &recording)
+    drawer.record(&mut app, &recording, args.time.unwrap_or(0.0))
 }
 
+/// The most frames.
+const MOST_FRAMES: u32 = 100_000;
+
 fn parse_frames(text: &str) -> Result<Range<u32>, String> {
-    const MOST: u32 = 100_000;
     text.split_once("..")
         .and_then(|(start, end)| Some(start.trim().parse().ok()?..end.trim().parse().ok()?))
-        .filter(|frames: &Range<u32>| !frames.is_empty() && frames.end <= MOST)
-        .ok_or_else(|| format!("expected A..B with A below B and B at most {MOST}, such as 0..120"))
+        .filter(|frames: &Range<u32>| !frames.is_empty() && frames.end <= MOST_FRAMES)
+        .ok_or_else(|| format!("expected A..B with A below B and B at most {MOST_FRAMES}, such as 0..120"))
+}
+
+fn parse_time(text: &str) -> Result<f64, String> {
+    let time = text.trim().parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0);
+    time.ok_or_else(|| "expected seconds, 0 or more, such as 1.5".to_owned())
 }
 
 fn parse_quantity(text: &str) -> Result<(Quantity, PathBuf), String> {
@@ -146,6 +185,14 @@ mod tests {
         assert_eq!(parse_quantity("eye-normal=n.png"), Ok((Quantity::EyeNormal, "n.png".into())));
         for bad in ["", "depth", "depth=", "Depth=d.exr", "=d.exr", "colour=c.exr"] {
             assert!(parse_quantity(bad).is_err_and(|error| error.contains("depth, distance")), "{bad}");
+        }
+    }
+
+    #[test]
+    fn times() {
+        assert_eq!(parse_time("1.5"), Ok(1.5));
+        for bad in ["", "-1", "inf", "nan", "1s"] {
+            assert!(parse_time(bad).is_err(), "{bad}");
         }
     }
 

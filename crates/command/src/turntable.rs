@@ -1,6 +1,7 @@
 //! A camera that orbits the scene.
 
 use halfway::prelude::*;
+use halfway::scene::AnimationSystems;
 
 /// The camera orbits the point on its axis that is nearest to the middle of the objects.
 #[derive(Resource)]
@@ -17,7 +18,8 @@ impl Turntable {
     /// Turns `camera` by `step` radians a frame from the second frame on.
     pub(crate) fn turn(app: &mut App, camera: Entity, step: f32) {
         let start = app.world().get::<Transform>(camera).copied().unwrap_or_default();
-        app.insert_resource(Self { camera, start, step, frame: 0, pivot: None }).add_systems(Update, turn);
+        app.insert_resource(Self { camera, start, step, frame: 0, pivot: None })
+            .add_systems(Update, turn.after(AnimationSystems));
     }
 
     /// The pivot. Objects of scene files do not move.

@@ -49,11 +49,13 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     }
     input.scene.tolerance = Some(tolerance);
     input.scene.objects.iter_mut().for_each(|object| object.tolerance = None);
+    input.scene.all_cameras_mut().for_each(|camera| camera.tolerance = None);
     let size = input.resize(args.size);
-    if input.scene.samples != 1 {
+    if input.scene.samples != 1 || input.scene.all_cameras().any(|camera| camera.samples.is_some_and(|it| it != 1)) {
         eprintln!("note: judged with one sample a pixel, since adapters differ in where they take four");
     }
     input.scene.samples = 1;
+    input.scene.all_cameras_mut().for_each(|camera| camera.samples = None);
     let adapter = args.drawing.adapter.choice().open()?;
     let device = adapter.describe();
     let bits = adapter.sub_pixel_bits()?;

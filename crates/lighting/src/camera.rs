@@ -140,7 +140,8 @@ impl Camera {
     /// large as it can be seen wholly in a picture that is at least as wide as it is high.
     ///
     /// A perspective keeps its field of view and stands as near as it may; its near plane comes closer where the sphere
-    /// would be cut. An orthographic projection takes the height of the sphere. +Y is up in the picture, or −Z if the
+    /// would be cut. An orthographic projection takes the height of the sphere. A shifted picture has the sphere in its
+    /// middle, too. +Y is up in the picture, or −Z if the
     /// camera looks straight down, +Z if straight up. A `direction` of length 0 counts as −Z, a radius of 0 as 1.
     #[cfg(feature = "ecs")]
     pub fn framing(
@@ -153,10 +154,14 @@ impl Camera {
 
         let radius = if radius > 0.0 { radius } else { 1.0 };
         let direction = direction.normalize_or(Vec3::NEG_Z);
-        let (distance, projection) = self.projection.framing(radius);
+        let ([x, y, z], projection) = self.projection.framing(radius);
         let upright = direction.cross(Vec3::Y).length_squared() > 1e-9;
         let up = if upright { Vec3::Y } else { Vec3::Z * direction.y };
-        let place = Transform::from_translation(center - distance * direction).looking_to(direction, up);
+        let mut place = Transform::from_translation(center + z * direction).looking_to(direction, up);
+        // In the middle there is nothing to round.
+        if x.abs() + y.abs() > 0.0 {
+            place.translation -= place.rotation * Vec3::new(x, y, 0.0);
+        }
         (Self { projection, ..self }, place)
     }
 

@@ -125,7 +125,7 @@ pub use material::{BackMaterial, Material};
 pub use place::{light_direction, light_position, light_up};
 #[cfg(feature = "ecs")]
 pub use plugin::LightingPlugin;
-pub use projection::{DepthSpan, Lens, LensTerms, Projection, ViewRay};
+pub use projection::{DepthSpan, Film, Lens, LensTerms, Projection, ViewRay};
 #[cfg(feature = "ecs")]
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};

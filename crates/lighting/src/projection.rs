@@ -1,7 +1,7 @@
 //! Projections: how eye space falls onto the picture. All that depends on the kind of a projection is in this file.
 
 use std::f32::consts::{FRAC_PI_4, PI};
-use std::ops::Bound::Excluded;
+use std::ops::Bound::{Excluded, Included};
 
 use crate::Viewer;
 use crate::equations::vector::Real;
@@ -37,6 +37,8 @@ pub enum Projection {
         fov_y: f32,
         /// Distance of the near plane in world units, above 0. Default 0.1. Nearer points are cut off.
         near: f32,
+        /// Where the picture lies, and the shape of its pixels. Default [`Film::DEFAULT`].
+        film: Film,
     },
     /// All rays are parallel to −Z.
     Orthographic {
@@ -48,7 +50,56 @@ pub enum Projection {
         /// Depth of the far plane in world units, above `near`; points beyond it are cut off. With `None`, the default,
         /// nothing is: the depth buffer spans the visible objects.
         far: Option<f32>,
+        /// Where the picture lies, and the shape of its pixels. Default [`Film::DEFAULT`].
+        film: Film,
     },
+}
+
+/// Where the picture lies in the plane that a [`Projection`] falls onto, and the shape of its pixels. By default its
+/// middle is on the axis of the view and its pixels are square.
+///
+/// ```
+/// use halfway_lighting::{Film, Projection};
+///
+/// // A shift lens: the camera looks level, and the picture's lower edge is at the horizon.
+/// let film = Film { shift: [0.0, 0.5], ..Film::DEFAULT };
+/// let lens = Projection::perspective(1.0).with_film(film).lens::<f64>([640, 480]);
+/// let [_, y, _, w] = lens.clip_from_eye([0.0, 0.0, -5.0]);
+/// assert_eq!(y / w, -1.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Film {
+    /// How far the middle of the picture is to the right of the axis of the view and above it, in heights of what the
+    /// projection's `fov_y` or `height` shows; each −100 to 100. Default `[0.0, 0.0]`.
+    pub shift: [f32; 2],
+    /// Width over height of what is always seen, 10⁻⁴ to 10⁴. In a picture that is wider, more is seen on both sides;
+    /// in one that is narrower, more is seen above and below, so that nothing is stretched or cut off. With `None`, the
+    /// default, a narrower picture shows less of the sides.
+    pub aspect: Option<f32>,
+    /// Width over height of what a pixel shows, 10⁻⁴ to 10⁴. Default 1.
+    pub pixel_aspect: f32,
+}
+
+impl Film {
+    /// In the middle, with square pixels.
+    pub const DEFAULT: Self = Self { shift: [0.0; 2], aspect: None, pixel_aspect: 1.0 };
+    /// The range of each number of [`shift`](Self::shift).
+    pub const SHIFT: Range = Range::new(Included(-100.0), Included(100.0), "a number from -100 to 100");
+    /// The range of [`aspect`](Self::aspect) and [`pixel_aspect`](Self::pixel_aspect).
+    pub const ASPECT: Range = Range::new(Included(1e-4), Included(1e4), "a number from 0.0001 to 10000");
+
+    fn validate_in(&self, fields: Fields) -> Result<(), InvalidValue> {
+        let Self { shift, aspect, pixel_aspect } = *self;
+        shift.iter().try_for_each(|along| fields.within("film.shift", *along, Self::SHIFT))?;
+        aspect.map_or(Ok(()), |aspect| fields.within("film.aspect", aspect, Self::ASPECT))?;
+        fields.within("film.pixel_aspect", pixel_aspect, Self::ASPECT)
+    }
+}
+
+impl Default for Film {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
 }
 
 impl Default for Projection {
@@ -60,12 +111,66 @@ impl Default for Projection {
 impl Projection {
     /// A perspective with this vertical field of view in radians; its near plane is at 0.1.
     pub const fn perspective(fov_y: f32) -> Self {
-        Self::Perspective { fov_y, near: 0.1 }
+        Self::Perspective { fov_y, near: 0.1, film: Film::DEFAULT }
     }
 
     /// An orthographic projection that shows this many world units from the lower to the upper edge, from depth 0 on.
     pub const fn orthographic(height: f32) -> Self {
-        Self::Orthographic { height, near: 0.0, far: None }
+        Self::Orthographic { height, near: 0.0, far: None, film: Film::DEFAULT }
+    }
+
+    /// The perspective of a camera that was calibrated: its focal lengths [fx, fy] and its principal point [cx, cy] in
+    /// pixels of a picture that is [width, height] pixels large. Pixels count from the upper left corner of the picture,
+    /// x to the right and y down; the middle of the first pixel is at (0.5, 0.5). A program that puts it at (0, 0), as
+    /// `OpenCV` does, has principal points that are less by 0.5.
+    ///
+    /// In a picture of another size with the same proportions the same is seen; of other proportions, more
+    /// ([`Film::aspect`]). The near plane is at 0.1. Poses of computer vision have the camera look along +Z with +Y
+    /// down: turn them by 180° about their X axis.
+    ///
+    /// ```
+    /// use halfway_lighting::Projection;
+    ///
+    /// let lens = Projection::intrinsics([500.0, 510.0], [310.0, 250.0], [640, 480]).lens::<f64>([640, 480]);
+    /// let [x, y, _, w] = lens.clip_from_eye([0.2, 0.1, -2.0]);
+    /// let pixel = [320.0 * (1.0 + x / w), 240.0 * (1.0 - y / w)];
+    /// assert!((pixel[0] - (310.0 + 500.0 * 0.1)).abs() < 1e-3);
+    /// assert!((pixel[1] - (250.0 - 510.0 * 0.05)).abs() < 1e-3);
+    /// ```
+    pub fn intrinsics([fx, fy]: [f32; 2], [cx, cy]: [f32; 2], [width, height]: [u32; 2]) -> Self {
+        let [fx, fy, cx, cy] = [fx, fy, cx, cy].map(f64::from);
+        let [width, height] = [width, height].map(f64::from);
+        let pixel_aspect = fy / fx;
+        let shift = [(0.5 * width - cx) * pixel_aspect / height, (cy - 0.5 * height) / height];
+        let film = Film {
+            shift: shift.map(|along| along as f32),
+            aspect: Some((width * pixel_aspect / height) as f32),
+            pixel_aspect: pixel_aspect as f32,
+        };
+        Self::Perspective { fov_y: (2.0 * (0.5 * height / fy).arc_tangent()) as f32, near: 0.1, film }
+    }
+
+    /// A perspective whose picture shows, in the plane at the depth `near`, x from `left` to `right` and y from `bottom`
+    /// to `top`, as OpenGL's `glFrustum` does: half of a stereo pair, a tile of a larger picture, a window onto a scene.
+    /// In a picture of other proportions more is seen ([`Film::aspect`]).
+    ///
+    /// ```
+    /// use halfway_lighting::Projection;
+    ///
+    /// // The right half of what a perspective of 90° shows.
+    /// let lens = Projection::frustum([0.0, 1.0], [-1.0, 1.0], 1.0).lens::<f64>([50, 100]);
+    /// let [x, _, _, w] = lens.clip_from_eye([0.0, 0.0, -3.0]);
+    /// assert!((x / w + 1.0).abs() < 1e-6);
+    /// ```
+    pub fn frustum([left, right]: [f32; 2], [bottom, top]: [f32; 2], near: f32) -> Self {
+        let [left, right, bottom, top] = [left, right, bottom, top].map(f64::from);
+        let height = top - bottom;
+        let film = Film {
+            shift: [left + right, bottom + top].map(|both| (0.5 * both / height) as f32),
+            aspect: Some(((right - left) / height) as f32),
+            ..Film::DEFAULT
+        };
+        Self::Perspective { fov_y: (2.0 * (0.5 * height / f64::from(near)).arc_tangent()) as f32, near, film }
     }
 
     /// Depth of the near plane in world units.
@@ -79,8 +184,24 @@ impl Projection {
     #[must_use]
     pub const fn with_near(self, near: f32) -> Self {
         match self {
-            Self::Perspective { fov_y, .. } => Self::Perspective { fov_y, near },
-            Self::Orthographic { height, far, .. } => Self::Orthographic { height, near, far },
+            Self::Perspective { fov_y, film, .. } => Self::Perspective { fov_y, near, film },
+            Self::Orthographic { height, far, film, .. } => Self::Orthographic { height, near, far, film },
+        }
+    }
+
+    /// Where the picture lies, and the shape of its pixels.
+    pub const fn film(&self) -> Film {
+        match *self {
+            Self::Perspective { film, .. } | Self::Orthographic { film, .. } => film,
+        }
+    }
+
+    /// The same projection with this film.
+    #[must_use]
+    pub const fn with_film(self, film: Film) -> Self {
+        match self {
+            Self::Perspective { fov_y, near, .. } => Self::Perspective { fov_y, near, film },
+            Self::Orthographic { height, near, far, .. } => Self::Orthographic { height, near, far, film },
         }
     }
 
@@ -93,12 +214,13 @@ impl Projection {
     }
 
     pub(crate) fn validate_in(&self, fields: Fields) -> Result<(), InvalidValue> {
+        self.film().validate_in(fields)?;
         match *self {
-            Self::Perspective { fov_y, near } => {
+            Self::Perspective { fov_y, near, .. } => {
                 fields.within("fov_y", fov_y, Self::FIELD_OF_VIEW)?;
                 fields.positive("near", near)
             }
-            Self::Orthographic { height, near, far } => {
+            Self::Orthographic { height, near, far, .. } => {
                 fields.positive("height", height)?;
                 fields.within("near", near, Range::FINITE)?;
                 let Some(far) = far else { return Ok(()) };
@@ -109,7 +231,8 @@ impl Projection {
 
     const FIELD_OF_VIEW: Range = Range::new(Excluded(0.0), Excluded(PI), "an angle above 0 and below π radians");
 
-    /// The height of what the picture shows at a depth, in world units.
+    /// The height of what the picture shows at a depth, in world units; of a picture that is narrower than its
+    /// [`Film::aspect`] this is the least.
     pub fn height_at<T: Real>(&self, depth: T) -> T {
         match *self {
             Self::Perspective { fov_y, .. } => {
@@ -126,28 +249,36 @@ impl Projection {
     pub fn moved(self, from: f32, to: f32) -> Self {
         match self {
             Self::Perspective { .. } => self,
-            Self::Orthographic { height, near, far } => {
+            Self::Orthographic { height, near, far, film } => {
                 let plane = |depth: f32| depth + (to - from);
-                Self::Orthographic { height: height * (to / from), near: plane(near), far: far.map(plane) }
+                Self::Orthographic { height: height * (to / from), near: plane(near), far: far.map(plane), film }
             }
         }
     }
 
-    /// How far from its centre, along the view, a camera stands that shows a sphere of this radius as large as it can
-    /// in a picture no higher than wide; and the projection that it takes there.
+    /// Where in eye space the centre of a sphere of this radius is when a square picture shows it in its middle, as large
+    /// as it can; and the projection that the camera takes there.
     #[cfg(feature = "ecs")]
-    pub(crate) fn framing(self, radius: f32) -> (f32, Self) {
-        match self {
-            Self::Perspective { fov_y, near } => {
-                let distance = radius / (fov_y * 0.5).sine();
+    pub(crate) fn framing(self, radius: f32) -> ([f32; 3], Self) {
+        let film = self.film();
+        let (depth, projection) = match self {
+            Self::Perspective { fov_y, near, .. } => {
+                let distance = if film == Film::DEFAULT {
+                    radius / (fov_y * 0.5).sine()
+                } else {
+                    radius * self.lens::<f32>([1, 1]).steepest_side()
+                };
                 let room = 0.5 * (distance - radius);
                 (distance, if near <= room { self } else { self.with_near(room) })
             }
             Self::Orthographic { near, far, .. } => {
-                let distance = near + 2.0 * radius;
-                (distance, Self::Orthographic { height: 2.0 * radius, near, far })
+                let [x, y] = Self::orthographic(2.0).with_film(film).half_extent([1, 1]);
+                let height = 2.0 * f64::from(radius) / x.min(y);
+                (near + 2.0 * radius, Self::Orthographic { height: height as f32, near, far, film })
             }
-        }
+        };
+        let [x, y] = film.shift.map(|along| along * projection.height_at(depth));
+        ([x, y, -depth], projection)
     }
 
     /// Where the viewer is in eye space: [`view_vector`](crate::equations::view_vector) of it is the vector to the
@@ -159,17 +290,36 @@ impl Projection {
         }
     }
 
+    /// Half the width and half the height of what a picture of this many columns and rows of pixels shows where w of clip
+    /// space is 1, in units of eye space.
+    pub fn half_extent(&self, [width, height]: [u32; 2]) -> [f64; 2] {
+        let [width, height] = [width, height].map(f64::from);
+        let Film { aspect, pixel_aspect, .. } = self.film();
+        let half = 0.5 * self.height_at(1.0);
+        let pixel_aspect = f64::from(pixel_aspect);
+        let of_picture = width * pixel_aspect / height;
+        let y = half * aspect.map_or(1.0, |aspect| (f64::from(aspect) / of_picture).max(1.0));
+        [y * width / height * pixel_aspect, y]
+    }
+
+    /// The middle of the picture where w of clip space is 1, in units of eye space.
+    pub fn middle(&self) -> [f64; 2] {
+        self.film().shift.map(|along| f64::from(along) * self.height_at(1.0))
+    }
+
     /// The projection onto a picture of this many columns and rows of pixels.
     pub fn lens<T: Real>(&self, [width, height]: [u32; 2]) -> Lens<T> {
-        let (y, far, is_parallel) = match *self {
-            Self::Perspective { fov_y, .. } => (1.0 / (f64::from(fov_y) * 0.5).tangent(), f64::INFINITY, false),
-            Self::Orthographic { height, far, .. } => {
-                (2.0 / f64::from(height), far.map_or(f64::INFINITY, f64::from), true)
-            }
+        let (far, is_parallel) = match *self {
+            Self::Perspective { .. } => (f64::INFINITY, false),
+            Self::Orthographic { far, .. } => (far.map_or(f64::INFINITY, f64::from), true),
         };
-        let x = y * f64::from(height) / f64::from(width);
+        let y = self.half_extent([width, height])[1].recip();
+        let scale = [y * f64::from(height) / f64::from(width) / f64::from(self.film().pixel_aspect), y];
+        let middle = self.middle();
         Lens {
-            scale: [T::from_f64(x), T::from_f64(y)],
+            scale: scale.map(T::from_f64),
+            // Zero is exact.
+            center: [0, 1].map(|axis| T::from_f64(0.0 - scale[axis] * middle[axis])),
             near: T::from_f64(self.near().into()),
             far: T::from_f64(far),
             is_parallel,
@@ -181,7 +331,7 @@ impl Projection {
 /// knows which kind of projection it is.
 ///
 /// The coordinate w of clip space is the depth in a perspective, and 1 where rays are parallel; on the picture, −1 to 1
-/// from the left to the right and from the lower to the upper edge, a point is at `scale`·xy/w.
+/// from the left to the right and from the lower to the upper edge, a point is at `scale`·xy/w + `center`.
 ///
 /// ```
 /// use halfway_lighting::Projection;
@@ -195,8 +345,11 @@ impl Projection {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lens<T = f32> {
-    /// x and y of clip space are these times x and y of eye space; above 0.
+    /// x and y of clip space are these times x and y of eye space, plus `center` times w; above 0.
     pub scale: [T; 2],
+    /// Where the axis of the view meets the picture: −1 to 1 if it does, from the left to the right and from the lower
+    /// to the upper edge. 0 without a [shift](Film::shift).
+    pub center: [T; 2],
     /// Depth of the near plane.
     pub near: T,
     /// Depth of the far plane; infinite where there is none.
@@ -217,26 +370,33 @@ pub struct ViewRay<T> {
 impl<T: Real> Lens<T> {
     /// A perspective by its numbers: cot(fov/2)/aspect and cot(fov/2), and the distance of the near plane.
     pub fn perspective(scale: [T; 2], near: T) -> Self {
-        Self { scale, near, far: T::infinity(), is_parallel: false }
+        Self { scale, center: [T::zero(); 2], near, far: T::infinity(), is_parallel: false }
     }
 
     /// An orthographic projection by its numbers: 2/width and 2/height, and the depths of the near and the far plane.
     pub fn orthographic(scale: [T; 2], [near, far]: [T; 2]) -> Self {
-        Self { scale, near, far, is_parallel: true }
+        Self { scale, center: [T::zero(); 2], near, far, is_parallel: true }
+    }
+
+    /// The same lens where the axis of the view meets the picture at another point.
+    #[must_use]
+    pub fn with_center(self, center: [T; 2]) -> Self {
+        Self { center, ..self }
     }
 
     /// In another precision.
     pub fn cast<U: Real>(&self) -> Lens<U> {
         let of = |value: T| U::from(value).unwrap_or_else(U::nan);
-        Lens { scale: self.scale.map(of), near: of(self.near), far: of(self.far), is_parallel: self.is_parallel }
+        let [scale, center] = [self.scale, self.center].map(|both| both.map(of));
+        Lens { scale, center, near: of(self.near), far: of(self.far), is_parallel: self.is_parallel }
     }
 
     /// The lens for an eye space in which a world unit is `unit` long.
     #[must_use]
     pub fn in_unit(&self, unit: T) -> Self {
-        let Self { scale, near, far, is_parallel } = *self;
+        let Self { scale, center, near, far, is_parallel } = *self;
         let scale = if is_parallel { scale.map(|scale| scale / unit) } else { scale };
-        Self { scale, near: near * unit, far: far * unit, is_parallel }
+        Self { scale, center, near: near * unit, far: far * unit, is_parallel }
     }
 
     /// The lens whose depth buffer spans what lies between the near and the far plane of objects from the nearest to the
@@ -294,7 +454,7 @@ impl<T: Real> Lens<T> {
     /// The first number with which nothing can be drawn: its name, its value and what is expected of it. A parallel lens
     /// is expected to be [fitted](Self::fitted).
     pub fn fault(&self) -> Option<(&'static str, T, &'static str)> {
-        let Self { scale, near, far, is_parallel } = *self;
+        let Self { scale, center, near, far, is_parallel } = *self;
         let fault = |field, value, is_right: bool, expected| (!is_right).then_some((field, value, expected));
         let positive =
             |field, value: T| fault(field, value, value.is_finite() && value > T::zero(), "a finite number above 0");
@@ -305,7 +465,9 @@ impl<T: Real> Lens<T> {
             fault("near", near, near.is_finite(), "a finite number")
                 .or_else(|| fault("far", far, far.is_finite() && far > near, "a finite number above near"))
         };
-        positive("scale", scale[0]).or_else(|| positive("scale", scale[1])).or_else(planes)
+        let finite = |value: T| fault("center", value, value.is_finite(), "a finite number");
+        let center = || finite(center[0]).or_else(|| finite(center[1]));
+        positive("scale", scale[0]).or_else(|| positive("scale", scale[1])).or_else(center).or_else(planes)
     }
 
     /// 1/w where this is the [nearness](Self::nearness).
@@ -332,7 +494,9 @@ impl<T: Real> Lens<T> {
     pub fn clip_from_eye(&self, [x, y, z]: [T; 3]) -> [T; 4] {
         let LensTerms { depth, w } = self.terms();
         let at = |[a, b]: [T; 2]| -z * a + b;
-        [self.scale[0] * x, self.scale[1] * y, at(depth), at(w)]
+        let w = at(w);
+        let across = |axis: usize, along: T| self.scale[axis] * along + self.center[axis] * w;
+        [across(0, x), across(1, y), at(depth), w]
     }
 
     /// z and w of clip space as functions of the depth.
@@ -351,13 +515,14 @@ impl<T: Real> Lens<T> {
         let zero = T::zero();
         let [x, y] = self.scale;
         let LensTerms { depth, w } = self.terms();
-        [[x, zero, zero, zero], [zero, y, zero, zero], [zero, zero, -depth[0], -w[0]], [zero, zero, depth[1], w[1]]]
+        let [[x2, y2], [x3, y3]] = [-w[0], w[1]].map(|w| self.center.map(|center| center * w + zero));
+        [[x, zero, zero, zero], [zero, y, zero, zero], [x2, y2, -depth[0], -w[0]], [x3, y3, depth[1], w[1]]]
     }
 
     /// The ray through a point of the picture, which is given as −1 to 1 from the left to the right and from the lower
     /// to the upper edge.
     pub fn ray(&self, at: [T; 2]) -> ViewRay<T> {
-        self.ray_at([at[0] / self.scale[0], at[1] / self.scale[1]])
+        self.ray_at([0, 1].map(|axis| (at[axis] - self.center[axis]) / self.scale[axis]))
     }
 
     /// The ray through a point of the picture, which is given by x and y of eye space where w is 1.
@@ -389,7 +554,10 @@ impl<T: Real> Lens<T> {
     /// Whether a sphere of eye space may reach the picture. Never false for one that does.
     pub fn sees(&self, center: [T; 3], radius: T) -> bool {
         let depth = -center[2];
-        let sides = [0, 1].iter().all(|&axis| self.beyond(axis, center) <= self.across(axis, radius));
+        let sides = [0, 1].iter().all(|&axis| {
+            let (beyond, across) = (self.beyond(axis, center), self.across(axis, radius));
+            beyond[0] <= across[0] && beyond[1] <= across[1]
+        });
         depth + radius >= self.near && depth - radius <= self.far && sides
     }
 
@@ -397,47 +565,71 @@ impl<T: Real> Lens<T> {
     /// Never true for one of which a part is.
     pub fn holds(&self, center: [T; 3], radius: T) -> bool {
         let depth = -center[2];
-        let sides = [0, 1].iter().all(|&axis| self.beyond(axis, center) <= -self.across(axis, radius));
+        let sides = [0, 1].iter().all(|&axis| {
+            let (beyond, across) = (self.beyond(axis, center), self.across(axis, radius));
+            beyond[0] <= -across[0] && beyond[1] <= -across[1]
+        });
         let reach = radius * T::from_f64(ROOM);
         depth - reach >= self.near && depth + reach <= self.far && sides
     }
 
-    /// How far a point is outside the two side planes of an axis; their normals are [`across`](Self::across) long.
+    /// How far a point is outside the two side planes of an axis, those of less and of more; their normals are
+    /// [`across`](Self::across) long.
     #[inline]
-    fn beyond(&self, axis: usize, center: [T; 3]) -> T {
-        self.scale[axis] * center[axis].abs() - self.w(-center[2])
+    fn beyond(&self, axis: usize, center: [T; 3]) -> [T; 2] {
+        let w = self.w(-center[2]);
+        let at = self.scale[axis] * center[axis] + self.center[axis] * w;
+        [-at - w, at - w]
     }
 
-    /// A radius times the length of the normals of an axis' side planes: |scale·x| ≤ w. The planes pass through the eye,
-    /// or are parallel.
+    /// A radius times the lengths of the normals of an axis' side planes: −w ≤ scale·x + center·w ≤ w. The planes pass
+    /// through the eye, or are parallel.
     #[inline]
-    fn across(&self, axis: usize, radius: T) -> T {
-        let scale = self.scale[axis];
+    fn across(&self, axis: usize, radius: T) -> [T; 2] {
         if self.is_parallel {
-            radius * scale * T::from_f64(ROOM) + T::from_f64(1e-6)
+            [radius * self.scale[axis] * T::from_f64(ROOM) + T::from_f64(1e-6); 2]
         } else {
-            radius * (scale * scale + T::one()).sqrt() * T::from_f64(ROOM)
+            self.side_lengths(axis).map(|length| radius * length * T::from_f64(ROOM))
         }
+    }
+
+    /// The lengths of the normals of an axis' side planes in a perspective.
+    #[inline]
+    fn side_lengths(&self, axis: usize) -> [T; 2] {
+        let scale = self.scale[axis];
+        [T::one(), -T::one()].map(|side| {
+            let along = side + self.center[axis];
+            (scale * scale + along * along).sqrt()
+        })
+    }
+
+    /// The depth of the middle of a sphere of radius 1 that touches the nearest side planes of a perspective and lies in
+    /// the middle of the picture.
+    #[cfg(feature = "ecs")]
+    fn steepest_side(&self) -> T {
+        // On the ray through the middle of the picture both planes of an axis are depth/length away.
+        [0, 1].into_iter().flat_map(|axis| self.side_lengths(axis)).fold(T::zero(), T::max)
     }
 
     /// From where to where a box reaches along an axis on the picture, as −1 to 1; it holds the points that are up to
     /// `reach` from `offset` along the axis, at depths up to `depth.reach` from the middle. `None` where it is beside the
     /// picture.
     pub fn span(&self, axis: usize, (offset, reach): (T, T), depth: &DepthSpan<T>) -> Option<[T; 2]> {
-        let scale = self.scale[axis];
+        let (scale, center) = (self.scale[axis], self.center[axis]);
         let (low, high) = (offset - reach, offset + reach);
         if self.is_parallel {
-            return Some([scale * low, scale * high]);
+            return Some([scale * low + center, scale * high + center]);
         }
         let (nearest, farthest) = (depth.middle - depth.reach, depth.middle + depth.reach);
         if nearest > T::from_f64(1e-3) * depth.radius && nearest > T::zero() {
             let low = scale * low / if low < T::zero() { nearest } else { farthest };
             let high = scale * high / if high < T::zero() { farthest } else { nearest };
-            return Some([low, high]);
+            return Some([low + center, high + center]);
         }
         // It surrounds the eye, or nearly: only the side planes can leave it out.
-        let beyond = scale * offset.abs() - depth.middle
-            > depth.radius * (scale * scale + T::one()).sqrt() * T::from_f64(1.0001);
+        let at = scale * offset + center * depth.middle;
+        let lengths = self.side_lengths(axis).map(|length| depth.radius * length * T::from_f64(1.0001));
+        let beyond = -at - depth.middle > lengths[0] || at - depth.middle > lengths[1];
         (!beyond).then_some([T::neg_infinity(), T::infinity()])
     }
 
@@ -454,19 +646,25 @@ impl<T: Real> Lens<T> {
         along * cos - across * sin > room
     }
 
-    /// How many pixels a length of 1 across the view takes where w is 1, in a picture of this many rows.
-    pub fn pixels_at_unit_w(&self, rows: T) -> T {
-        T::from_f64(0.5) * self.scale[1] * rows
+    /// How many pixels a length of 1 across the view takes where w is 1, in a picture of this many columns and rows; along
+    /// the axis on which they are more, where pixels are not square.
+    pub fn pixels_at_unit_w(&self, [columns, rows]: [T; 2]) -> T {
+        let across = |axis: usize, count: T| T::from_f64(0.5) * self.scale[axis] * count;
+        let (x, y) = (across(0, columns), across(1, rows));
+        // Of square pixels both are one number but for rounding.
+        if x > y * T::from_f64(ROOM) { x } else { y }
     }
 
-    /// The height of a pixel at a depth, in units of eye space, in a picture of this many rows.
-    pub fn pixel_size(&self, depth: T, rows: T) -> T {
-        self.w(depth) / self.pixels_at_unit_w(rows)
+    /// The size of a pixel at a depth, in units of eye space, in a picture of this many columns and rows; the smaller side
+    /// of one that is not square.
+    pub fn pixel_size(&self, depth: T, size: [T; 2]) -> T {
+        self.w(depth) / self.pixels_at_unit_w(size)
     }
 
-    /// The angle between the rays of a pixel in the middle of the picture and the one above it, in radians.
-    pub fn pixel_angle(&self, rows: T) -> T {
-        if self.is_parallel { T::zero() } else { self.pixels_at_unit_w(rows).recip() }
+    /// The angle between the rays of neighbouring pixels where the axis of the view meets the picture, in radians; the
+    /// smaller one where pixels are not square.
+    pub fn pixel_angle(&self, size: [T; 2]) -> T {
+        if self.is_parallel { T::zero() } else { self.pixels_at_unit_w(size).recip() }
     }
 
     /// An upper bound of how large a step is on the picture, anywhere in a sphere of eye space where the picture shows
@@ -478,12 +676,16 @@ impl<T: Real> Lens<T> {
         if self.is_parallel {
             return step;
         }
-        let [x, y] = self.scale;
         let one = T::one();
         let nearest = (-center[2] - radius).max(self.near);
         let aside = (center[0] * center[0] + center[1] * center[1]).sqrt() + radius;
         let aside2 = aside * aside / (nearest * nearest);
-        let slope2 = aside2.min(one / (x * x) + one / (y * y));
+        // The slopes of the rays through the corner that is farthest from the axis.
+        let [x2, y2] = [0, 1].map(|axis| {
+            let (scale, end) = (self.scale[axis], one + self.center[axis].abs());
+            end * end / (scale * scale)
+        });
+        let slope2 = aside2.min(x2 + y2);
         step * (one + slope2).sqrt() / nearest
     }
 }

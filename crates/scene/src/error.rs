@@ -90,6 +90,14 @@ pub enum SceneError {
         /// Which value, and what was expected.
         source: halfway_lighting::InvalidValue,
     },
+    /// No camera of the scene or its models has the name or the number that was asked for.
+    #[error("no camera is called {wanted:?}; {known}")]
+    NoCamera {
+        /// The name or the number.
+        wanted: String,
+        /// The cameras that there are, as a clause.
+        known: String,
+    },
     /// The world has no `Assets<Mesh>` to put meshes into.
     #[error("the world has no `Assets<Mesh>`; add `MeshPlugin` before a scene is spawned")]
     NoMeshAssets,

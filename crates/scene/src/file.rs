@@ -1,6 +1,5 @@
 //! The scene file as a whole.
 
-use std::collections::HashSet;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -17,6 +16,7 @@ use crate::json;
 use crate::keys::{Object, keys};
 use crate::light::{AttachEntry, LightEntry};
 use crate::mesh::MeshEntry;
+use crate::named::{NameOrIndex, check_names};
 use crate::object::ObjectEntry;
 use crate::retired;
 use crate::view::CameraEntry;
@@ -60,6 +60,9 @@ keys! {
         environment: Option<EnvironmentEntry> = None,
         /// The camera; null or left out: one that frames everything.
         camera: Option<CameraEntry> = None,
+        /// Further cameras, of which one is drawn where it is asked for, by its name or its number. `camera` is number 0
+        /// where there is one, and these follow.
+        cameras: Vec<CameraEntry> = Vec::new(),
         /// The lights; null or left out: those of the models, or a key light, a fill light and a headlight where the
         /// models have none. An empty list: no lights.
         lights: Option<Vec<LightEntry>> = None,
@@ -75,9 +78,14 @@ impl Object for SceneFile {
     const EXPECTED: &'static str = "an object with the keys of a scene";
 
     fn check_whole(&self) -> Check {
-        let names = self.names()?;
+        let item = |list: &'static str| move |i: usize| format!("{list}[{i}]");
+        let cameras = (0..).map(item("cameras")).zip(self.cameras.iter().map(|camera| camera.name.as_deref()));
+        let lights = (0..).map(item("lights")).zip(self.lights.iter().flatten().map(|light| light.name.as_deref()));
+        let objects = (0..).map(item("objects")).zip(self.objects.iter().map(|object| object.name.as_deref()));
+        let camera = self.camera.iter().map(|camera| ("camera".to_owned(), camera.name.as_deref()));
+        check_names(camera.chain(cameras).chain(lights).chain(objects))?;
         for (i, light) in self.lights.iter().flatten().enumerate() {
-            check_attach(&light.attach, &names).within_item(i).within("lights")?;
+            self.check_attach(&light.attach).within_item(i).within("lights")?;
         }
         Ok(())
     }
@@ -166,25 +174,30 @@ impl SceneFile {
         self.check(&Limits::Any).map_err(|KeyProblem { key, message }| SceneError::Value { key, message })
     }
 
-    /// The names of the objects, all different.
-    fn names(&self) -> Result<HashSet<&str>, KeyProblem> {
-        let mut names = HashSet::new();
-        for (i, object) in self.objects.iter().enumerate() {
-            let Some(name) = object.name.as_deref() else { continue };
-            if !names.insert(name) {
-                let message = format!("is {name:?}, as of an object before; expected a name of its own");
-                return Err(KeyProblem::new("name", message)).within_item(i).within("objects");
-            }
-        }
-        Ok(names)
+    /// All its cameras, [`camera`](Self::camera) first.
+    pub fn all_cameras(&self) -> impl Iterator<Item = &CameraEntry> {
+        self.camera.iter().chain(&self.cameras)
     }
-}
 
-fn check_attach(attach: &AttachEntry, names: &HashSet<&str>) -> Check {
-    match attach {
-        AttachEntry::Object(name) if !names.contains(name.as_str()) => {
-            Err(KeyProblem::new("attach.object", format!("is {name:?}; no object of the scene has that name")))
+    /// All its cameras, [`camera`](Self::camera) first.
+    pub fn all_cameras_mut(&mut self) -> impl Iterator<Item = &mut CameraEntry> {
+        self.camera.iter_mut().chain(&mut self.cameras)
+    }
+
+    /// The place of an object in the list, by its name or that place.
+    pub(crate) fn object_index(&self, object: &NameOrIndex) -> Option<usize> {
+        object.find(self.objects.iter().map(|object| object.name.as_deref()))
+    }
+
+    fn check_attach(&self, attach: &AttachEntry) -> Check {
+        let AttachEntry::Object(object) = attach else { return Ok(()) };
+        if self.object_index(object).is_some() {
+            return Ok(());
         }
-        _ => Ok(()),
+        let message = match object {
+            NameOrIndex::Name(name) => format!("is {name:?}; no object of the scene has that name"),
+            NameOrIndex::Index(index) => format!("is {index}; the scene has {} objects", self.objects.len()),
+        };
+        Err(KeyProblem::new("attach.object", message))
     }
 }

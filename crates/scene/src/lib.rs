@@ -3,9 +3,11 @@
 //! The format is described in `docs/scene-format.md`, and as a JSON schema in `docs/scene.schema.json`
 //! ([`json_schema`]). [`SceneFile`] is the file as a value, and [`spawn()`] turns it into entities.
 
+mod animation;
 mod check;
 mod defaults;
 mod described;
+mod displacement;
 mod edges;
 mod entry;
 mod environment;
@@ -23,6 +25,7 @@ mod material;
 mod mesh;
 mod model_root;
 mod models;
+mod named;
 mod object;
 mod placement;
 mod retired;
@@ -30,10 +33,13 @@ mod scalars;
 mod schema;
 mod solid;
 mod spawn;
+mod surface;
 mod transform;
 mod view;
 
+pub use animation::{AnimatedKey, AnimationPlugin, AnimationSystems, Interpolation, KeyFrame, SceneTime, TrackEntry};
 pub use defaults::{default_lights, framing_camera};
+pub use displacement::DisplacementEntry;
 pub use edges::EdgesEntry;
 pub use environment::EnvironmentEntry;
 pub use error::SceneError;
@@ -43,10 +49,15 @@ pub use light::{AttachEntry, ConeEntry, LightEntry, LightKind};
 pub use material::MaterialEntry;
 pub use mesh::{InlineMesh, MeshEntry};
 pub use model_root::{ModelError, ModelFailed, ModelParts, ModelRoot, spawn_model};
+pub use named::NameOrIndex;
 pub use object::ObjectEntry;
 pub use scalars::{ColorMap, ScalarValues, Scalars, ScalarsError};
 pub use schema::json_schema;
 pub use solid::SolidEntry;
-pub use spawn::{Spawned, spawn};
+pub use spawn::{Spawned, spawn, spawn_seen_from};
+pub use surface::{
+    BezierEntry, CapsuleEntry, ConeMeshEntry, CylinderEntry, DiscEntry, EllipsoidEntry, HeightFieldEntry,
+    HyperboloidEntry, HyperboloidSheetEntry, ParaboloidEntry, PolynomialEntry, SurfaceEntry, TorusEntry,
+};
 pub use transform::{TransformEntry, TransformMatrix, TransformParts};
-pub use view::CameraEntry;
+pub use view::{CameraEntry, IntrinsicsEntry};

@@ -7,10 +7,12 @@ use serde::de::{Deserializer, Error};
 use serde::ser::Serializer;
 use serde_json::{Map, Value, json};
 
+use crate::animation::{Animate, TrackEntry};
 use crate::check::{Check, KeyProblem, Limits, Within, direction, test};
 use crate::described;
 use crate::entry::Entry;
 use crate::keys::{CheckKeys, Fill, Key, Keys, Object, Presence, Visit, Words, keys, keys_schema, words};
+use crate::named::NameOrIndex;
 
 /// A light. In JSON, the keys of `cone` and `light` stand beside the others, as far as the kind of light has them
 /// ([`LightKind`]): other keys are refused in a file, and other fields here are ignored.
@@ -28,6 +30,10 @@ pub struct LightEntry {
     pub hemisphere: HemisphereLight,
     /// The frame of position and direction, with which the light moves.
     pub attach: AttachEntry,
+    /// Its name; no other camera, light or object has the same.
+    pub name: Option<String>,
+    /// How its position, direction and colors change in time.
+    pub animation: Vec<TrackEntry>,
 }
 
 /// The kinds of light.
@@ -98,11 +104,12 @@ pub enum AttachEntry {
     World,
     /// The camera's: it looks along −Z, with +Y up.
     Camera,
-    /// That of the object of this name.
-    Object(String),
+    /// That of the object of this name, or at this place in the list of objects.
+    Object(NameOrIndex),
 }
 
-const OBJECT: Key = Key::required("object", "That of the object of this name.");
+const OBJECT: Key =
+    Key::required("object", "That of the object of this name, or at this place in the list, counted from 0.");
 
 impl Keys for AttachEntry {
     const NAME: &'static str = "AttachEntry";
@@ -151,7 +158,7 @@ words! {
 }
 
 /// The keys of every light.
-const SHARED: [&str; 5] = ["kind", "ambient", "diffuse", "specular", "attach"];
+const SHARED: [&str; 7] = ["kind", "ambient", "diffuse", "specular", "attach", "name", "animation"];
 
 impl LightKind {
     fn name(self) -> &'static str {
@@ -180,10 +187,10 @@ impl LightKind {
 
     /// The keys that it has beside those of its kind alone.
     fn shared_keys(self) -> &'static [&'static str] {
-        if self == Self::Hemisphere { &["kind", "attach"] } else { &SHARED }
+        if self == Self::Hemisphere { &["kind", "attach", "name", "animation"] } else { &SHARED }
     }
 
-    fn has(self, key: &str) -> bool {
+    pub(crate) fn has(self, key: &str) -> bool {
         self.keys().contains(&key) || self.shared_keys().contains(&key)
     }
 }
@@ -204,7 +211,8 @@ impl LightEntry {
             }
         };
         let (light, hemisphere) = (PointLight::white(), HemisphereLight::white());
-        Self { kind, position, cone, light, hemisphere, attach: AttachEntry::World }
+        let (attach, name, animation) = (AttachEntry::World, None, Vec::new());
+        Self { kind, position, cone, light, hemisphere, attach, name, animation }
     }
 }
 
@@ -260,6 +268,8 @@ impl Entry for Position {
 const KIND: Key = Key::required("kind", "The kind of light.");
 const POSITION: Key = key("position", "Where the light is.");
 const POSITION_AND_W: Key = key("position", "(x, y, z, w), not all 0.");
+const NAME: Key = key("name", "Its name; no other camera, light or object has the same. null: none.");
+const ANIMATION: Key = key("animation", "How its position, direction and colors change in time.");
 const ATTACH: Key = key("attach", "Whose frame position and direction are in, and with what the light moves.");
 
 const fn key(name: &'static str, meaning: &'static str) -> Key {
@@ -277,10 +287,11 @@ impl Keys for LightEntry {
     }
 
     fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
-        let Self { kind, position, cone, light, hemisphere, attach } = self;
+        let Self { kind, position, cone, light, hemisphere, attach, name, animation } = self;
         let [x, y, z, _] = *position;
         let own = &mut KeysOfKind { kind: *kind, visitor };
         own.key(&KIND, Some(kind))?;
+        own.key(&NAME, Some(name))?;
         match kind {
             LightKind::Homogeneous => own.key(&POSITION_AND_W, Some(position)),
             _ => own.key(&POSITION, Some(&[x, y, z])),
@@ -288,7 +299,8 @@ impl Keys for LightEntry {
         cone.visit(own)?;
         described::visit(light, own)?;
         described::visit(hemisphere, own)?;
-        own.key(&ATTACH, Some(attach))
+        own.key(&ATTACH, Some(attach))?;
+        own.key(&ANIMATION, Some(animation))
     }
 
     fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {
@@ -297,7 +309,9 @@ impl Keys for LightEntry {
         self.cone.fill(from)?;
         described::fill(&mut self.light, from)?;
         described::fill(&mut self.hemisphere, from)?;
-        from.key(&ATTACH, |attach| self.attach = attach)
+        from.key(&ATTACH, |attach| self.attach = attach)?;
+        from.key(&NAME, |name| self.name = name)?;
+        from.key(&ANIMATION, |animation| self.animation = animation)
     }
 }
 
@@ -307,10 +321,12 @@ impl Object for LightEntry {
     fn with_given(self, given: &[&str]) -> Result<Self, String> {
         let kind = self.kind;
         if let Some(key) = given.iter().find(|key| !kind.has(key)) {
-            let shared = kind.shared_keys().iter().filter(|key| !["kind", "attach"].contains(key));
+            let shared = kind.shared_keys().iter().filter(|key| !["kind", "attach", "name", "animation"].contains(key));
             let keys: Vec<_> = kind.keys().iter().chain(shared).copied().collect();
             let (name, keys) = (kind.name(), keys.join(", "));
-            return Err(format!("`{key}` does not belong to a {name} light, whose keys are {keys} and attach"));
+            return Err(format!(
+                "`{key}` does not belong to a {name} light, whose keys are {keys}, attach, name and animation"
+            ));
         }
         // The defaults of position and cone depend on the kind.
         let default = Self::white(kind);
@@ -352,6 +368,7 @@ impl Object for LightEntry {
         self.cone.check(&Limits::Any)?;
         described::visit(&self.light, &mut CheckKeys)?;
         described::visit(&self.hemisphere, &mut CheckKeys)?;
+        self.check_tracks(&self.animation)?;
         if self.light.attenuation == Attenuation::new(0.0, 0.0, 0.0) {
             return Err(KeyProblem::new("attenuation", "is [0, 0, 0]; expected at least one number above 0"));
         }

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 
 use bevy_math::{Vec2, Vec3, Vec4};
 use halfway_lighting::Range;
-use halfway_mesh::{Cuboid, Format, Mesh, MeshError, NormalWeighting, Normals, Plane, Teapot, UvSphere};
+use halfway_mesh::{Cuboid, Format, Icosphere, Mesh, MeshError, NormalWeighting, Normals, Plane, Teapot, UvSphere};
 
 use crate::check::{Check, KeyProblem, Limits, Within};
-use crate::keys::{Fill, Key, Keys, Object, Visit, keys, words};
+use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, Words, keys, words};
+use crate::surface::{SURFACES, SurfaceEntry};
 
 /// The shape of an object: an object with exactly one of these keys.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,10 @@ pub enum MeshEntry {
     Box(Cuboid),
     /// The Utah teapot.
     Teapot(Teapot),
+    /// A sphere about the origin, of triangles of nearly equal size.
+    Icosphere(Icosphere),
+    /// A surface by formula.
+    Surface(SurfaceEntry),
     /// Vertices and triangles, written out.
     Inline(InlineMesh),
 }
@@ -32,6 +37,7 @@ const UV_SPHERE: Key = Key::required("uv_sphere", "A sphere about the origin.");
 const PLANE: Key = Key::required("plane", "A square in the xz plane about the origin, facing +Y.");
 const BOX: Key = Key::required("box", "A box about the origin.");
 const TEAPOT: Key = Key::required("teapot", "The Utah teapot.");
+const ICOSPHERE: Key = Key::required("icosphere", "A sphere about the origin, of triangles of nearly equal size.");
 const INLINE: Key = Key::required("inline", "Vertices and triangles, written out.");
 
 /// A path without a name, which no model has.
@@ -56,6 +62,8 @@ impl Keys for MeshEntry {
             Self::Plane(plane) => visitor.key(&PLANE, Some(plane)),
             Self::Box(cuboid) => visitor.key(&BOX, Some(cuboid)),
             Self::Teapot(teapot) => visitor.key(&TEAPOT, Some(teapot)),
+            Self::Icosphere(sphere) => visitor.key(&ICOSPHERE, Some(sphere)),
+            Self::Surface(surface) => surface.visit(visitor),
             Self::Inline(mesh) => visitor.key(&INLINE, Some(mesh)),
         }
     }
@@ -66,19 +74,25 @@ impl Keys for MeshEntry {
         from.key(&PLANE, |plane| *self = Self::Plane(plane))?;
         from.key(&BOX, |cuboid| *self = Self::Box(cuboid))?;
         from.key(&TEAPOT, |teapot| *self = Self::Teapot(teapot))?;
+        from.key(&ICOSPHERE, |sphere| *self = Self::Icosphere(sphere))?;
+        SurfaceEntry::fill(from, |surface| *self = Self::Surface(surface))?;
         from.key(&INLINE, |mesh| *self = Self::Inline(mesh))
     }
 }
 
 impl Object for MeshEntry {
     const ONE_KEY: bool = true;
-    const EXPECTED: &'static str = "an object with one of the keys path, uv_sphere, plane, box, teapot or inline";
+    fn expected() -> String {
+        let surfaces = SURFACES.join(", ");
+        format!("an object with one of the keys path, uv_sphere, plane, box, teapot, icosphere, {surfaces} or inline")
+    }
 
     fn check_whole(&self) -> Check {
         match self {
             Self::Path(path) if Format::from_path(path).is_none() => {
                 Err(KeyProblem::new("path", format!("is {}; {KNOWN_MODELS}", path.display())))
             }
+            Self::Surface(surface) => surface.check(),
             _ => Ok(()),
         }
     }
@@ -87,7 +101,8 @@ impl Object for MeshEntry {
 const KNOWN_MODELS: &str = "expected a file that ends in .smf, .obj, .gltf, .glb, .ply or .stl";
 
 /// A length of a surface.
-const LENGTH: Limits = Limits::Numbers(Range::new(Included(1e-30), Included(1e30), "a length from 1e-30 to 1e30"));
+pub(crate) const LENGTH: Limits =
+    Limits::Numbers(Range::new(Included(1e-30), Included(1e30), "a length from 1e-30 to 1e30"));
 
 keys! {
     /// The value of `{"uv_sphere": …}`.
@@ -212,20 +227,77 @@ impl InlineMesh {
     }
 }
 
+impl Keys for Normals {
+    const NAME: &'static str = "Normals";
+    const MEANING: &'static str = "`normals`: how a mesh gets its normals.";
+    const WORDS: Words<Self> = &[
+        ("keep", Self::Keep, "The file's or the surface's own, else by the default weighting, which is `max`."),
+        ("face", Self::Face, "One normal a triangle."),
+        ("uniform", Self::Weighted(NormalWeighting::Uniform), "The mean of the faces around a vertex, all alike."),
+        ("area", Self::Weighted(NormalWeighting::Area), "The mean weighted by the faces' areas."),
+        ("angle", Self::Weighted(NormalWeighting::Angle), "The mean weighted by the faces' angles at the vertex."),
+        ("max", Self::Weighted(NormalWeighting::Max), "The mean with the weights of Max 1999."),
+    ];
+
+    fn blank() -> Self {
+        Self::Keep
+    }
+
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
+        let Self::Creased { angle, weighting } = *self else { return Ok(()) };
+        visitor.key(&CREASED, Some(&CreasedEntry { angle_deg: degrees(angle), weighting }))
+    }
+
+    fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {
+        from.key(&CREASED, |CreasedEntry { angle_deg, weighting }| {
+            *self = Self::Creased { angle: angle_deg.to_radians(), weighting };
+        })
+    }
+}
+
+impl Object for Normals {
+    const ONE_KEY: bool = true;
+    const EXAMPLES: &'static [&'static str] = &["{\"creased\": {\"angle_deg\": 30}}"];
+}
+
+const CREASED: Key = Key {
+    presence: Presence::Required,
+    ..Key::required("creased", "The mean over the faces around a vertex that no crease separates.")
+};
+
+keys! {
+    /// The value of `{"creased": …}`.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct CreasedEntry {
+        [optional]
+        /// An edge is a crease where the normals of its faces differ by more than this angle, in degrees from 0 to 180.
+        angle_deg: f32 = 30.0 => Limits::Numbers(Range::new(Included(0.0), Included(180.0), "degrees from 0 to 180")),
+        /// The weight of a face in the mean.
+        weighting: NormalWeighting = NormalWeighting::default(),
+    }
+}
+
+impl Object for CreasedEntry {
+    const EXPECTED: &'static str = "an object such as {\"angle_deg\": 30}";
+}
+
+/// The degrees that come to this angle in radians, to the bit where there are any: a file says degrees.
+fn degrees(angle: f32) -> f32 {
+    let near = angle.to_degrees();
+    let beside = [near, near.next_up(), near.next_down(), near.next_up().next_up(), near.next_down().next_down()];
+    beside.into_iter().find(|degrees| degrees.to_radians().to_bits() == angle.to_bits()).unwrap_or(near)
+}
+
 words! {
-    /// `normals`: how a mesh gets its normals.
-    Normals {
-        /// The file's or the surface's own, else by the default weighting, which is `max`.
-        keep = Self::Keep,
-        /// One normal a triangle.
-        face = Self::Face,
-        /// The mean of the faces around a vertex, all alike.
-        uniform = Self::Weighted(NormalWeighting::Uniform),
-        /// The mean weighted by the faces' areas.
-        area = Self::Weighted(NormalWeighting::Area),
-        /// The mean weighted by the faces' angles at the vertex.
-        angle = Self::Weighted(NormalWeighting::Angle),
-        /// The mean with the weights of Max 1999.
-        max = Self::Weighted(NormalWeighting::Max),
+    /// `weighting`: the weight of a face in the mean of the normals around a vertex.
+    NormalWeighting {
+        /// All alike.
+        uniform = Self::Uniform,
+        /// Its area.
+        area = Self::Area,
+        /// Its angle at the vertex.
+        angle = Self::Angle,
+        /// The weights of Max 1999.
+        max = Self::Max,
     }
 }

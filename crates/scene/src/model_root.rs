@@ -160,7 +160,7 @@ fn fill(root: Entity, file: &Path, world: &mut World) -> Result<ModelParts, Mode
     let object = ObjectEntry::new(MeshEntry::Path(file.to_owned()));
     let mut shapes = Shapes::new(Path::new(""));
     let shape = shapes.load_once(&object, 0)?;
-    for warning in &shapes.warnings {
+    for warning in shapes.warnings.iter().chain(&shapes.unused_cameras) {
         log::warn!("{warning}");
     }
     let (mut handles, mut textures) = (Handles::new(), TextureHandles::new());

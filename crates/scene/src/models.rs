@@ -7,8 +7,8 @@ use std::rc::Rc;
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
 use halfway_asset::Handle;
-use halfway_mesh::{Mesh, Model, NormalReport, Normals, SourceMap, SourceMaterial};
-use halfway_texture::{FarNormals, MapKind, SurfaceMap, TexelMeaning, Texture, UvSet};
+use halfway_mesh::{Mesh, Model, NormalReport, SourceCamera, SourceMap, SourceMaterial};
+use halfway_texture::{FarNormals, MapKind, Pyramid, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
@@ -20,6 +20,8 @@ use halfway_lighting::{AlphaMode, LightComponent};
 pub(crate) struct ObjectShape {
     pub(crate) parts: Vec<ShapePart>,
     pub(crate) lights: Vec<ShapeLight>,
+    /// The model's cameras.
+    pub(crate) cameras: Vec<SourceCamera>,
 }
 
 /// One mesh of a shape, where it stands inside the object.
@@ -53,11 +55,13 @@ pub(crate) struct Shapes<'a> {
     base_dir: &'a Path,
     loaded: HashMap<String, Rc<ObjectShape>>,
     pub(crate) warnings: Vec<String>,
+    /// Warnings about models whose cameras are not used.
+    pub(crate) unused_cameras: Vec<String>,
 }
 
 impl<'a> Shapes<'a> {
     pub(crate) fn new(base_dir: &'a Path) -> Self {
-        Self { base_dir, loaded: HashMap::new(), warnings: Vec::new() }
+        Self { base_dir, loaded: HashMap::new(), warnings: Vec::new(), unused_cameras: Vec::new() }
     }
 
     /// The shape of object `index`; equal ones are loaded once.
@@ -68,7 +72,7 @@ impl<'a> Shapes<'a> {
             MeshEntry::Path(path) => Some(format!("path {}", path.display())),
             surface => Some(format!("{surface:?}")),
         };
-        let key = key.map(|key| format!("{key} {:?}", object.normals));
+        let key = key.map(|key| format!("{key} {:?} {:?}", object.normals, object.displacement));
         let shape = match key.as_ref().and_then(|key| self.loaded.get(key)) {
             Some(shape) => Rc::clone(shape),
             None => Rc::new(self.load(object, index)?),
@@ -101,29 +105,61 @@ impl<'a> Shapes<'a> {
                 let path = self.base_dir.join(path);
                 let model =
                     halfway_mesh::load(&path).map_err(|source| SceneError::Model { key: mesh_path(index), source })?;
-                return self.model(model, &path, object.normals, index);
+                return self.model(model, &path, object, index);
             }
             MeshEntry::UvSphere(sphere) => Mesh::from(*sphere),
             MeshEntry::Plane(plane) => Mesh::from(*plane),
             MeshEntry::Box(cuboid) => Mesh::from(*cuboid),
             MeshEntry::Teapot(teapot) => Mesh::from(*teapot),
+            MeshEntry::Icosphere(sphere) => Mesh::from(*sphere),
+            MeshEntry::Surface(surface) => surface.mesh(self.base_dir).map_err(|message| SceneError::Value {
+                key: format!("objects[{index}].mesh.{}", surface.name()),
+                message,
+            })?,
             MeshEntry::Inline(mesh) => mesh.mesh().map_err(|error| SceneError::Value {
                 key: format!("objects[{index}].mesh.inline"),
                 message: error.to_string(),
             })?,
         };
-        let (mesh, report) = mesh.with_normals(object.normals);
-        self.warn_of_normals(&format!("objects[{index}]"), report);
+        let at = format!("objects[{index}]");
+        let image = self.displacement(object, index);
+        let (mesh, report) = self.displaced(object, mesh, image.as_ref(), &at).with_normals(object.normals);
+        self.warn_of_normals(&at, report);
         let part =
             ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None, maps: Vec::new() };
-        Ok(ObjectShape { parts: vec![part], lights: Vec::new() })
+        Ok(ObjectShape { parts: vec![part], lights: Vec::new(), cameras: Vec::new() })
     }
 
-    fn model(&mut self, model: Model, path: &Path, normals: Normals, index: usize) -> Result<ObjectShape, SceneError> {
+    /// The image that displaces an object; of one that cannot be read there is a warning.
+    fn displacement(&mut self, object: &ObjectEntry, index: usize) -> Option<Pyramid> {
+        let loaded = object.displacement.as_ref()?.load(self.base_dir);
+        let warning =
+            |error| self.warnings.push(format!("objects[{index}].displacement: {error}; nothing is displaced"));
+        loaded.map_err(warning).ok()
+    }
+
+    /// The mesh, displaced where it can be.
+    fn displaced(&mut self, object: &ObjectEntry, mesh: Mesh, image: Option<&Pyramid>, at: &str) -> Mesh {
+        let (Some(entry), Some(image)) = (&object.displacement, image) else { return mesh };
+        entry.displaced(&mesh, image).unwrap_or_else(|error| {
+            self.warnings.push(format!("{at}: {error}"));
+            mesh
+        })
+    }
+
+    fn model(
+        &mut self,
+        model: Model,
+        path: &Path,
+        object: &ObjectEntry,
+        index: usize,
+    ) -> Result<ObjectShape, SceneError> {
+        let image = self.displacement(object, index);
         let file = path.display();
         self.warnings.extend(model.warnings.iter().map(|warning| format!("{file}: {warning}")));
         if !model.cameras.is_empty() {
-            self.warnings.push(format!("{file}: {} cameras are not used; a scene has its own", model.cameras.len()));
+            self.unused_cameras
+                .push(format!("{file}: {} cameras are not used; a scene has its own", model.cameras.len()));
         }
         let maps = self.all_maps(&model, &file.to_string());
         let materials = model.materials.iter().map(|material| {
@@ -140,8 +176,9 @@ impl<'a> Shapes<'a> {
         let lights = lights.collect::<Result<Vec<_>, SceneError>>()?;
         let mut parts = Vec::with_capacity(model.parts.len());
         for part in model.parts {
-            let (mesh, report) = part.mesh.with_normals(normals);
-            self.warn_of_normals(&format!("{file}: part {:?}", part.name), report);
+            let at = format!("{file}: part {:?}", part.name);
+            let (mesh, report) = self.displaced(object, part.mesh, image.as_ref(), &at).with_normals(object.normals);
+            self.warn_of_normals(&at, report);
             let own = part.material.and_then(|material| materials.get(material).copied());
             let maps = part.material.and_then(|material| maps.get(material)).cloned().unwrap_or_default();
             let (shown, hidden): (Vec<_>, Vec<_>) =
@@ -153,7 +190,7 @@ impl<'a> Shapes<'a> {
             }
             parts.push(ShapePart { name: part.name, mesh, object_from_part: part.world_from_part, own, maps: shown });
         }
-        Ok(ObjectShape { parts, lights })
+        Ok(ObjectShape { parts, lights, cameras: model.cameras })
     }
 
     fn material(&mut self, source: &SourceMaterial, at: String, index: usize) -> Result<ModelMaterial, SceneError> {

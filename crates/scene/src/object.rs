@@ -3,7 +3,9 @@
 use halfway_lighting::{Faces, Range, Reflectance, Shading, Tolerance, VertexColors};
 use halfway_mesh::Normals;
 
-use crate::check::Limits;
+use crate::animation::{Animate, TrackEntry};
+use crate::check::{Check, Limits};
+use crate::displacement::DisplacementEntry;
 use crate::edges::EdgesEntry;
 use crate::keys::{Object, keys};
 use crate::maps::MapsEntry;
@@ -20,10 +22,12 @@ keys! {
         /// The shape. Required.
         mesh: MeshEntry,
         [optional]
-        /// The name that lights are attached by; no two objects have the same. null: none.
+        /// Its name, by which lights are attached; no other camera, light or object has the same. null: none.
         name: Option<String> = None,
         /// How the mesh gets its normals.
         normals: Normals = Normals::default(),
+        /// The image that moves the vertices, before they get their normals; null: none.
+        displacement: Option<DisplacementEntry> = None,
         /// Where the mesh is in the world.
         transform: TransformEntry = TransformEntry::default(),
         /// The material; null: the model's own, or the default values where it has none.
@@ -44,6 +48,8 @@ keys! {
         solid: Option<SolidEntry> = None,
         /// Lines along the edges of the mesh; null: the scene's.
         edges: Option<EdgesEntry> = None,
+        /// How translation, rotation and scale change in time.
+        animation: Vec<TrackEntry> = Vec::new(),
         [left out]
         /// Which sides are shown. Left out: `front`, or `both` for parts with a double-sided material of the model's
         /// own.
@@ -59,4 +65,8 @@ keys! {
 
 impl Object for ObjectEntry {
     const EXPECTED: &'static str = "an object with the keys of a scene's object";
+
+    fn check_whole(&self) -> Check {
+        self.transform.check_tracks(&self.animation)
+    }
 }

@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
-use bevy_math::{DMat3, DQuat, Mat4, Vec3};
+use bevy_math::{Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_asset::{Assets, Handle};
 use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, VertexColors, ViewTolerance};
@@ -15,14 +15,17 @@ use halfway_lighting::{Camera, Projection, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
 use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
 
+use crate::animation::Animated;
 use crate::defaults::{default_lights, framing_camera};
 use crate::edges::EdgesEntry;
 use crate::error::SceneError;
 use crate::file::SceneFile;
+use crate::import::{camera_place, model_camera};
 use crate::light::{AttachEntry, LightEntry};
 use crate::light_place::place;
 use crate::material::MaterialEntry;
 use crate::models::{ModelMap, ObjectShape, ShapePart, Shapes};
+use crate::named::NameOrIndex;
 use crate::object::ObjectEntry;
 use crate::placement::Placement;
 use crate::view::CameraEntry;
@@ -42,6 +45,8 @@ pub struct Spawned {
     /// The scene's own warnings, and those of its models' repairs and omissions, one sentence each, with the file's
     /// name.
     pub warnings: Vec<String>,
+    /// Whether the camera, an object or a light changes in time; [`AnimationPlugin`](crate::AnimationPlugin) plays it.
+    pub is_animated: bool,
 }
 
 /// Puts a scene into a world: camera, objects, lights, and the [`GlobalAmbient`] resource; and [`ViewTolerance`],
@@ -50,6 +55,7 @@ pub struct Spawned {
 /// Paths in the scene are relative to `base_dir`, the folder of the scene file. The size of the picture is
 /// not put into the world: it belongs to the target.
 ///
+/// - Of several cameras the first is spawned; [`spawn_seen_from`] chooses another.
 /// - Where the scene has no camera, one is made that frames all objects ([`framing_camera`]).
 /// - Where an object has no material, its model's own materials are used, translated by
 ///   [`import`](crate::import), with their double-sidedness, blending and masks unless the object says otherwise.
@@ -66,6 +72,29 @@ pub struct Spawned {
 /// and [`SceneError::NoTextureAssets`]. Nothing is
 /// spawned then.
 pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Spawned, SceneError> {
+    spawn_seen(scene, base_dir, None, world)
+}
+
+/// [`spawn`](fn@spawn) with the camera of this name, or at this place, counted from 0, among all cameras: the scene's
+/// ([`SceneFile::all_cameras`]), then those of its models (glTF), object by object.
+///
+/// # Errors
+/// As [`spawn`](fn@spawn), and [`SceneError::NoCamera`], which lists the cameras.
+pub fn spawn_seen_from(
+    scene: &SceneFile,
+    base_dir: &Path,
+    camera: &str,
+    world: &mut World,
+) -> Result<Spawned, SceneError> {
+    spawn_seen(scene, base_dir, Some(camera), world)
+}
+
+fn spawn_seen(
+    scene: &SceneFile,
+    base_dir: &Path,
+    wanted: Option<&str>,
+    world: &mut World,
+) -> Result<Spawned, SceneError> {
     scene.validate()?;
     if !world.contains_resource::<Assets<Mesh>>() {
         return Err(SceneError::NoMeshAssets);
@@ -81,11 +110,17 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
         .map(|(i, object)| Ok((object, shapes.load_once(object, i)?)))
         .collect::<Result<Vec<_>, SceneError>>()?;
 
+    let seen = SeenFrom::choose(scene, &objects, wanted)?;
+    if !matches!(seen, SeenFrom::Model { .. }) {
+        shapes.warnings.append(&mut shapes.unused_cameras);
+    }
+
     world.insert_resource(GlobalAmbient(LinearRgba::from_f32_array_no_alpha(scene.ambient)));
-    if let Some(tolerance) = scene.tolerance {
+    let own_tolerance = if let SeenFrom::Entry(entry) = &seen { entry.tolerance } else { None };
+    if let Some(tolerance) = own_tolerance.or(scene.tolerance) {
         world.insert_resource(ViewTolerance(tolerance));
     }
-    let camera = spawn_camera(scene, &objects, world);
+    let camera = spawn_camera(scene, &seen, world);
     let (mut handles, mut textures) = (Handles::new(), TextureHandles::new());
     let frames = objects
         .iter()
@@ -98,7 +133,8 @@ pub fn spawn(scene: &SceneFile, base_dir: &Path, world: &mut World) -> Result<Sp
     if let Some(environment) = &scene.environment {
         environment.spawn(base_dir, &mut warnings, world);
     }
-    Ok(Spawned { camera, objects: frames, lights, warnings })
+    let is_animated = [&[camera][..], &frames, &lights].concat().iter().any(|entity| is_animated(*entity, world));
+    Ok(Spawned { camera, objects: frames, lights, warnings, is_animated })
 }
 
 pub(crate) type Object<'a> = (&'a ObjectEntry, Rc<ObjectShape>);
@@ -110,25 +146,95 @@ pub(crate) type Handles = HashMap<*const Vec3, Handle<Mesh>>;
 /// The same of textures.
 pub(crate) type TextureHandles = HashMap<*const [f32; 4], Handle<Texture>>;
 
-fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Entity {
-    let entry = scene.camera.unwrap_or_else(|| {
-        let [width, height] = scene.size;
-        framing_camera(outline(objects), width as f32 / height as f32)
-    });
+/// The camera that is drawn.
+enum SeenFrom {
+    /// One of the scene's own, or one that frames everything.
+    Entry(CameraEntry),
+    /// One of a model's.
+    Model { name: String, projection: Projection, place: Transform },
+}
+
+impl SeenFrom {
+    /// The camera of this name or number; without one, the scene's first, or one that frames everything.
+    fn choose(scene: &SceneFile, objects: &[Object], wanted: Option<&str>) -> Result<Self, SceneError> {
+        let Some(wanted) = wanted else {
+            return Ok(Self::Entry(scene.all_cameras().next().cloned().unwrap_or_else(|| {
+                let [width, height] = scene.size;
+                framing_camera(outline(objects), width as f32 / height as f32)
+            })));
+        };
+        let of_models = || {
+            let cameras = |(i, (_, shape)): (usize, &'_ Object)| (0..shape.cameras.len()).map(move |k| (i, k));
+            objects.iter().enumerate().flat_map(cameras)
+        };
+        let names: Vec<Option<&str>> = scene
+            .all_cameras()
+            .map(|camera| camera.name.as_deref())
+            .chain(
+                of_models().map(|(i, k)| Some(objects[i].1.cameras[k].name.as_str()).filter(|name| !name.is_empty())),
+            )
+            .collect();
+        let by_name = NameOrIndex::from(wanted).find(names.iter().copied());
+        let by_number = || NameOrIndex::Index(wanted.parse().ok()?).find(names.iter().copied());
+        let Some(found) = by_name.or_else(by_number) else {
+            let listed = names.iter().enumerate().map(|(i, name)| match name {
+                Some(name) => format!("{i} {name:?}"),
+                None => i.to_string(),
+            });
+            let listed: Vec<String> = listed.collect();
+            let known = match listed.as_slice() {
+                [] => "neither the scene nor its models have any".to_owned(),
+                _ => format!("there are {}", listed.join(", ")),
+            };
+            return Err(SceneError::NoCamera { wanted: wanted.to_owned(), known });
+        };
+        let own = scene.all_cameras().count();
+        if let Some(entry) = scene.all_cameras().nth(found) {
+            return Ok(Self::Entry(entry.clone()));
+        }
+        // The list has it.
+        let (i, k) = of_models().nth(found - own).unwrap_or_default();
+        let (object, shape) = &objects[i];
+        let source = &shape.cameras[k];
+        let (projection, place) = model_camera(source).map_err(|error| SceneError::ModelValue {
+            key: format!("objects[{i}].mesh.path"),
+            at: format!("camera {:?}", source.name),
+            source: error,
+        })?;
+        let place = camera_place(&(object.transform.matrix() * place.to_matrix()));
+        Ok(Self::Model { name: source.name.clone(), projection, place })
+    }
+}
+
+fn spawn_camera(scene: &SceneFile, seen: &SeenFrom, world: &mut World) -> Entity {
+    let default = CameraEntry::default();
+    let (entry, name, projection, place) = match seen {
+        SeenFrom::Entry(entry) => (entry, entry.name.as_deref(), entry.projection(), entry.transform()),
+        SeenFrom::Model { name, projection, place } => {
+            (&default, Some(name.as_str()).filter(|name| !name.is_empty()), *projection, *place)
+        }
+    };
     let camera = Camera {
-        projection: Projection::Perspective { fov_y: entry.fov_y_deg.to_radians(), near: entry.near },
+        projection,
         background: LinearRgba::from_f32_array_no_alpha(scene.background),
         background_below: scene.background_below.map(LinearRgba::from_f32_array_no_alpha),
         background_opacity: scene.background_opacity,
         viewer: scene.viewer,
-        samples: if scene.samples == 4 { Samples::Four } else { Samples::One },
+        samples: if entry.samples.unwrap_or(scene.samples) == 4 { Samples::Four } else { Samples::One },
         encoding: scene.output,
         intensity: scene.intensity,
     };
-    let view = (scene.shading, scene.reflectance);
-    let camera = world.spawn((Name::new("camera"), camera, camera_transform(&entry), view)).id();
-    insert_some(&mut world.entity_mut(camera), scene.edges.as_ref().map(EdgesEntry::component));
-    camera
+    let view = (entry.shading.unwrap_or(scene.shading), entry.reflectance.unwrap_or(scene.reflectance));
+    let name = Name::new(name.unwrap_or("camera").to_owned());
+    let mut entity = world.spawn((name, camera, place, view));
+    insert_some(&mut entity, Animated::camera(entry));
+    insert_some(&mut entity, scene.edges.as_ref().map(EdgesEntry::component));
+    entity.id()
+}
+
+fn is_animated(entity: Entity, world: &World) -> bool {
+    // The frame of an object that shears is its inner one, and does not move.
+    world.get::<Animated>(entity).is_some()
 }
 
 /// Above this number of vertices the corners of boxes stand for them.
@@ -163,12 +269,6 @@ fn corners(bounds: &Bounds) -> impl Iterator<Item = Vec3> {
     })
 }
 
-fn camera_transform(entry: &CameraEntry) -> Transform {
-    let rotation =
-        entry.axes().map_or(DQuat::IDENTITY, |[right, up, back]| DQuat::from_mat3(&DMat3::from_cols(right, up, back)));
-    Transform::from_translation(entry.position.into()).with_rotation(rotation.normalize().as_quat())
-}
-
 /// Spawns an object and gives the entity of its frame.
 fn spawn_object(
     object: &ObjectEntry,
@@ -186,6 +286,7 @@ fn spawn_object(
     } else {
         spawn_parts(object, frame, shape, (handles, textures), world);
     }
+    insert_some(&mut world.entity_mut(frame), Animated::object(&object.transform, &object.animation));
     frame
 }
 
@@ -345,16 +446,17 @@ fn spawn_lights(
         }
         entries = Cow::Owned(default_lights());
     }
-    let by_name: HashMap<&str, Entity> =
-        objects.iter().zip(frames).filter_map(|((object, _), &frame)| Some((object.name.as_deref()?, frame))).collect();
     let spawn_entry = |(i, entry): (usize, &LightEntry)| {
         let parent = match &entry.attach {
             AttachEntry::World => None,
             AttachEntry::Camera => Some(camera),
-            AttachEntry::Object(name) => by_name.get(name.as_str()).copied(),
+            AttachEntry::Object(object) => scene.object_index(object).and_then(|index| frames.get(index)).copied(),
         };
         let (component, transform) = place(entry);
-        spawn_light(format!("lights[{i}]"), component, transform, parent, world)
+        let name = entry.name.clone().unwrap_or_else(|| format!("lights[{i}]"));
+        let light = spawn_light(name, component, transform, parent, world);
+        insert_some(&mut world.entity_mut(light), Animated::light(entry));
+        light
     };
     entries.iter().enumerate().map(spawn_entry).collect()
 }

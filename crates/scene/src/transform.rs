@@ -1,6 +1,7 @@
 //! Transforms in scene files.
 
 use bevy_math::{DVec4, Mat4, Quat, Vec3};
+use bevy_transform::components::Transform;
 use serde_json::{Map, Value, json};
 
 use crate::check::{Check, KeyProblem, Limits, Within};
@@ -77,6 +78,13 @@ impl Default for TransformEntry {
 }
 
 impl TransformEntry {
+    /// As a component, of a transform in parts.
+    pub(crate) fn parts(&self) -> Option<Transform> {
+        let Self::Parts(TransformParts { translation, rotation, scale }) = self else { return None };
+        let [translation, scale] = [translation, scale].map(|v| Vec3::from(*v));
+        Some(Transform { translation, rotation: unit(*rotation), scale })
+    }
+
     /// The matrix that takes the object into the world.
     pub fn matrix(&self) -> Mat4 {
         match self {

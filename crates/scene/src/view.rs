@@ -2,12 +2,14 @@
 
 use std::ops::Bound::Excluded;
 
-use bevy_math::{DVec3, Vec3};
+use bevy_math::{DMat3, DQuat, DVec3, Vec3};
+use bevy_transform::components::Transform;
 use halfway_lighting::{
-    Choices, Encoding, Faces, Projection, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer,
+    Choices, Encoding, Faces, Film, Projection, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer,
 };
 
-use crate::check::{Check, KeyProblem, Limits, direction};
+use crate::animation::{Animate, TrackEntry};
+use crate::check::{Check, KeyProblem, Limits, direction, in_range};
 use crate::described;
 use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, Words, keys, named_words, words};
 
@@ -124,28 +126,86 @@ impl Object for Tolerance {
 }
 
 keys! {
-    /// `camera`: where the scene is seen from. Right-handed, Y up; the camera looks from `position` to `target`.
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    /// A camera: where the scene is seen from. Right-handed, Y up; the camera looks from `position` to `target`. It is a
+    /// perspective one unless it has a `height`.
+    #[derive(Clone, Debug, PartialEq)]
     pub struct CameraEntry {
         [optional]
+        /// Its name; no other camera, light or object has the same. null: none.
+        name: Option<String> = None,
         /// Where the camera stands.
         position: [f32; 3] = [0.0, 0.0, 3.0],
-        /// The point in the middle of the picture; not `position`.
+        /// The point that the camera looks at, in the middle of the picture unless that is shifted; not `position`.
         target: [f32; 3] = [0.0; 3],
         /// The direction that is up in the picture; not along the line of sight. Any length above 0.
         up: [f32; 3] = [0.0, 1.0, 0.0],
         /// Vertical field of view, in degrees above 0 and below 180.
-        fov_y_deg: f32 = 45.0
-            => Limits::Numbers(Range::new(Excluded(0.0), Excluded(180.0), "degrees above 0 and below 180")),
-        /// Distance of the near plane, above 0. There is no far plane.
-        near: f32 = Projection::default().near() => Limits::Numbers(Range::POSITIVE),
+        fov_y_deg: f32 = 45.0 => Limits::Numbers(CameraEntry::FIELD_OF_VIEW),
+        /// Distance of the near plane, above 0. Of an orthographic camera any number: below 0 it shows what is behind
+        /// itself, too; left out, it is 0 then.
+        near: f32 = Projection::default().near(),
+        /// How far the middle of the picture is to the right of the axis of the view and above it, in heights of what
+        /// `fov_y_deg` or `height` shows: a shift lens. Each from −100 to 100.
+        shift: [f32; 2] = Film::DEFAULT.shift => Limits::Numbers(Film::SHIFT),
+        /// Width over height of what is always seen; in a picture of other proportions more is seen, and nothing is
+        /// stretched. 0.0001 to 10000; null: a narrow picture shows less of the sides.
+        aspect: Option<f32> = Film::DEFAULT.aspect => Limits::Numbers(Film::ASPECT),
+        /// Width over height of what a pixel shows, 0.0001 to 10000.
+        pixel_aspect: f32 = Film::DEFAULT.pixel_aspect => Limits::Numbers(Film::ASPECT),
+        /// The shading of objects that name none; null: the scene's.
+        shading: Option<Shading> = None,
+        /// The tolerance of objects that name none; null: the scene's.
+        tolerance: Option<Tolerance> = None,
+        /// The reflectance of objects that name none; null: the scene's.
+        reflectance: Option<Reflectance> = None,
+        /// Coverage samples a pixel, 1 or 4; null: the scene's.
+        samples: Option<u32> = None => Limits::OneOf(&[1, 4], "expected 1 or 4"),
+        /// How its keys change in time: position, target, up, and `fov_y_deg` or `height`.
+        animation: Vec<TrackEntry> = Vec::new(),
+        [left out]
+        /// Makes the camera orthographic: how many world units the picture shows from its lower to its upper edge, above
+        /// 0. Left out: a perspective.
+        height: f32 => Limits::Numbers(Range::POSITIVE),
+        /// Depth of the far plane of an orthographic camera, above `near`. Left out: nothing is too far away.
+        far: f32,
+        /// The perspective of a calibrated camera, in place of `fov_y_deg`, `shift`, `aspect` and `pixel_aspect`.
+        intrinsics: IntrinsicsEntry,
     }
+}
+
+keys! {
+    /// `intrinsics`: the perspective of a calibrated camera, in pixels from the upper left corner of its picture, x to the
+    /// right and y down; the middle of the first pixel is at (0.5, 0.5). A program that puts it at (0, 0), as `OpenCV` does,
+    /// has centers that are less by 0.5.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct IntrinsicsEntry {
+        [required]
+        /// The focal lengths fx and fy, in pixels; each above 0.
+        focal: [f32; 2] => Limits::Numbers(Range::POSITIVE),
+        /// The principal point cx, cy, in pixels.
+        center: [f32; 2],
+        /// Width and height of the calibrated picture in pixels, each 1 to 1000000. The picture that is drawn may have
+        /// another size.
+        size: [u32; 2] => Limits::Counts(1, 1_000_000),
+    }
+}
+
+impl Object for IntrinsicsEntry {
+    const EXPECTED: &'static str =
+        "an object such as {\"focal\": [500, 500], \"center\": [320, 240], \"size\": [640, 480]}";
 }
 
 impl Object for CameraEntry {
     const EXPECTED: &'static str = "an object with the keys of a camera";
 
+    fn with_given(self, given: &[&str]) -> Result<Self, String> {
+        let near = if self.height.is_some() && !given.contains(&"near") { 0.0 } else { self.near };
+        Ok(Self { near, ..self })
+    }
+
     fn check_whole(&self) -> Check {
+        self.check_projection()?;
+        self.check_tracks(&self.animation)?;
         direction("up", &self.up)?;
         if Vec3::from(self.position) == Vec3::from(self.target) {
             return Err(KeyProblem::new("target", "is where the camera stands; expected another point"));
@@ -158,6 +218,70 @@ impl Object for CameraEntry {
 }
 
 impl CameraEntry {
+    /// The range of `fov_y_deg`.
+    pub(crate) const FIELD_OF_VIEW: Range = Range::new(Excluded(0.0), Excluded(180.0), "degrees above 0 and below 180");
+
+    /// Checks that its keys are those of one kind of projection.
+    fn check_projection(&self) -> Check {
+        let default = Self::default();
+        #[allow(clippy::float_cmp, reason = "a default was not given, or might as well not have been")]
+        let own = [
+            ("fov_y_deg", self.fov_y_deg != default.fov_y_deg),
+            ("height", self.height.is_some()),
+            ("shift", self.shift != default.shift),
+            ("aspect", self.aspect != default.aspect),
+            ("pixel_aspect", self.pixel_aspect != default.pixel_aspect),
+        ];
+        if self.intrinsics.is_some()
+            && let Some((key, _)) = own.iter().find(|(_, is_given)| *is_given)
+        {
+            return Err(KeyProblem::new(*key, "cannot stand beside `intrinsics`, which say it all"));
+        }
+        if self.height.is_some() && own[0].1 {
+            return Err(KeyProblem::new(
+                "fov_y_deg",
+                "cannot stand beside `height`, which makes the camera orthographic",
+            ));
+        }
+        match (self.height, self.far) {
+            (None, Some(_)) => {
+                Err(KeyProblem::new("far", "is of an orthographic camera; expected a `height` beside it, or no `far`"))
+            }
+            (None, None) => in_range("near", self.near, Range::POSITIVE),
+            (Some(_), Some(far)) if far <= self.near => {
+                Err(KeyProblem::new("far", format!("is {far}; expected more than `near`, which is {}", self.near)))
+            }
+            (Some(_), _) => Ok(()),
+        }?;
+        // Focal lengths and sizes that are far apart may come to what cannot be drawn.
+        let validated = self.projection().validate();
+        if self.intrinsics.is_some() {
+            return validated.map_err(|error| KeyProblem::new("intrinsics", format!("come to nothing: {error}")));
+        }
+        Ok(())
+    }
+
+    /// Its projection.
+    pub(crate) fn projection(&self) -> Projection {
+        let Self { near, shift, aspect, pixel_aspect, .. } = *self;
+        let film = Film { shift, aspect, pixel_aspect };
+        match (self.intrinsics, self.height) {
+            (Some(IntrinsicsEntry { focal, center, size }), _) => {
+                Projection::intrinsics(focal, center, size).with_near(near)
+            }
+            (None, Some(height)) => Projection::Orthographic { height, near, far: self.far, film },
+            (None, None) => Projection::Perspective { fov_y: self.fov_y_deg.to_radians(), near, film },
+        }
+    }
+
+    /// Where it stands and looks.
+    pub(crate) fn transform(&self) -> Transform {
+        let rotation = self
+            .axes()
+            .map_or(DQuat::IDENTITY, |[right, up, back]| DQuat::from_mat3(&DMat3::from_cols(right, up, back)));
+        Transform::from_translation(self.position.into()).with_rotation(rotation.normalize().as_quat())
+    }
+
     /// The camera's right, up and back in world space, of unit length and perpendicular; `None` where `position` and
     /// `target` or `up` do not say which they are.
     pub(crate) fn axes(&self) -> Option<[DVec3; 3]> {

@@ -110,7 +110,11 @@ const AXES: [&[Value]; 10] = [
             setup.projection = Projection::orthographic(2.6).with_near(-9.0);
         }),
         value("orthographic, between two planes", |setup| {
-            setup.projection = Projection::Orthographic { height: 2.6, near: 2.5, far: Some(3.4) };
+            setup.projection = Projection::Orthographic { height: 2.6, near: 2.5, far: Some(3.4), film: Film::DEFAULT };
+        }),
+        value("off centre", |setup| setup.projection = Projection::default().with_film(OFF_CENTRE)),
+        value("orthographic, off centre", |setup| {
+            setup.projection = Projection::orthographic(2.6).with_film(OFF_CENTRE);
         }),
     ],
     &[
@@ -129,6 +133,9 @@ const AXES: [&[Value]; 10] = [
         }),
     ],
 ];
+
+/// Shifted, with pixels that are not square.
+const OFF_CENTRE: Film = Film { shift: [0.12, -0.08], aspect: None, pixel_aspect: 1.25 };
 
 fn blend(setup: &mut Setup) {
     setup.object.blend = true;

@@ -47,7 +47,7 @@ fn each_material(scene: &mut Scene, change: impl Fn(&mut Material)) {
 }
 
 /// Settings that make no difference to its shading.
-const CHANGES: [Change; 16] = [
+const CHANGES: [Change; 17] = [
     ("all", |_| ()),
     ("harmonics alone", |scene| each_material(scene, |material| material.specular = LinearRgba::BLACK)),
     ("mirrored alone", |scene| each_material(scene, |material| material.diffuse = LinearRgba::BLACK)),
@@ -73,6 +73,11 @@ const CHANGES: [Change; 16] = [
     }),
     ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
     ("orthographic", |scene| scene.camera.projection = Projection::orthographic(2.7)),
+    ("off-centre sky", |scene| {
+        let film = Film { shift: [0.2, -0.15], aspect: None, pixel_aspect: 0.8 };
+        scene.camera.projection = scene.camera.projection.with_film(film);
+        scene.environment.as_mut().expect("one").sky = true;
+    }),
     ("orthographic sky", |scene| {
         scene.camera.projection = Projection::orthographic(2.7);
         scene.environment.as_mut().expect("one").sky = true;

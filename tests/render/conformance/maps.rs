@@ -33,7 +33,7 @@ fn mapped(sampling: Sampling, scale: f32) -> Scene {
     scene
 }
 
-const CHANGES: [Change; 8] = [
+const CHANGES: [Change; 9] = [
     ("one light", |_| ()),
     ("no lights", |scene| scene.lamps.clear()),
     ("20 lights", |scene| scene.lamps = lights(20).lamps),
@@ -49,6 +49,10 @@ const CHANGES: [Change; 8] = [
     }),
     ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
     ("orthographic", |scene| scene.camera.projection = Projection::orthographic(2.7)),
+    ("off centre", |scene| {
+        let film = Film { shift: [-0.2, 0.15], aspect: None, pixel_aspect: 0.8 };
+        scene.camera.projection = scene.camera.projection.with_film(film);
+    }),
     ("beside what has none, instanced", |scene| {
         for x in [-1.2, 1.2] {
             let at = Transform::from_xyz(x, 0.3, 0.0).with_scale(Vec3::splat(0.4));
@@ -222,7 +226,7 @@ const ALL: [(MapKind, f32); 7] = [
 ];
 const HEIGHTS: (MapKind, f32) = (MapKind::Height, 0.04);
 
-const CIRCUMSTANCES: [Change; 9] = [
+const CIRCUMSTANCES: [Change; 10] = [
     ("one light", |_| ()),
     ("20 lights", |scene| scene.lamps = lights(20).lamps),
     ("colours, ambient that attenuates", CHANGES[3].1),
@@ -239,6 +243,10 @@ const CIRCUMSTANCES: [Change; 9] = [
     }),
     ("through the near plane", |scene| scene.camera.projection = scene.camera.projection.with_near(2.6)),
     ("orthographic", |scene| scene.camera.projection = Projection::orthographic(2.7)),
+    ("off centre", |scene| {
+        let film = Film { shift: [-0.2, 0.15], aspect: None, pixel_aspect: 0.8 };
+        scene.camera.projection = scene.camera.projection.with_film(film);
+    }),
     ("masked, matched", |scene| {
         scene.view_reflectance = Some(Reflectance::BlinnPhongMatched);
         for thing in &mut scene.things {

@@ -116,9 +116,16 @@ fn object(random: &mut Rng, unit: f64) -> Value {
     let mut object = Object::new();
     object.set("mesh", mesh::mesh(random, unit));
     object.perhaps(random, 90, "transform", |random| positions::transform(random, unit));
-    object.perhaps(random, 20, "normals", |random| {
-        random.choose(&["keep", "face", "uniform", "area", "angle", "max"]).into()
+    object.perhaps(random, 24, "normals", |random| {
+        let words = ["keep", "face", "uniform", "area", "angle", "max"];
+        if random.percent(80) {
+            return random.choose(&words).into();
+        }
+        json!({ "creased": { "angle_deg": short(random.between(0.0, 90.0)), "weighting": random.choose(&words[2..]) } })
     });
+    if object.0.get("transform").is_none_or(|transform| transform.get("matrix").is_none()) {
+        object.perhaps(random, 6, "animation", |random| positions::animation(random, unit));
+    }
     object.perhaps(random, 85, "material", appearance::material);
     object.perhaps(random, 15, "back_material", appearance::material);
     object.perhaps(random, 60, "faces", |random| random.choose(&["front", "back", "both", "both"]).into());

@@ -232,7 +232,7 @@ fn broader_highlights_are_found_and_minimised() {
 #[test]
 fn undone_mirrors_are_found_and_minimised() {
     // From the last on, as the first that shows it takes minutes to judge a hundred times.
-    is_found_among((0..40).rev(), with_mirrors_undone, 1..=2);
+    is_found_among((0..36).rev(), with_mirrors_undone, 1..=2);
 }
 
 /// An environment shows without any object.

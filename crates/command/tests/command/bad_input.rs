@@ -45,10 +45,10 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
     }
     let cases: &[(&[&str], &[&str])] = &[
         (&["render", "pipe.json", "-o", "a.png"], &["pipe.json", "not a regular file"]),
-        (&["render", "fine.json", "-o", "a.exr", "--frames", "0..2"], &["a.exr", ".png or .apng"]),
+        (&["render", "fine.json", "-o", "a.exr", "--turntable", "2"], &["a.exr", ".png or .apng"]),
         (&["render", "fine.json", "-o", "a.png", "--contact-sheet", "./a.png"], &["a.png", "contact sheet"]),
         (
-            &["render", "fine.json", "-o", "turn-{}.png", "--frames", "0..2", "--contact-sheet", "turn-0001.png"],
+            &["render", "fine.json", "-o", "turn-{}.png", "--turntable", "2", "--contact-sheet", "turn-0001.png"],
             &["turn-0001.png", "contact sheet"],
         ),
         (&["compare", "2.png", "pipe.png"], &["pipe.png", "not a regular file"]),
@@ -106,7 +106,7 @@ fn bad_input_is_named_and_ends_with_exit_code_2() {
         (&["convert", "fine.obj", "b.glb", "--weld=9"], &["fine.obj", "no triangle is left"]),
         (&["paint"], &["paint"]),
     ];
-    for (arguments, expected) in cases {
+    for (arguments, expected) in cases.iter().chain(TIMES_AND_CAMERAS) {
         let output = halfway(&folder, arguments);
         let error = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
@@ -191,9 +191,9 @@ fn a_signal_leaves_no_partial_file() {
     for signal in ["INT", "TERM"] {
         let folder = folder(&format!("signal_{signal}"));
         let files = || fs::read_dir(&folder).expect("it was made").count();
-        let (teapot, frames) = (asset("assets/teapot.obj"), "0..100000");
+        let (teapot, frames) = (asset("assets/teapot.obj"), "100000");
         let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
-        command.args(["render", &teapot, "--size", "32x24", "--frames", frames, "-o", "turn.png"]);
+        command.args(["render", &teapot, "--size", "32x24", "--turntable", frames, "-o", "turn.png"]);
         let mut child = command.current_dir(&folder).spawn().expect("the command was built with this test");
         // The animation has begun.
         while files() == 0 {
@@ -207,8 +207,21 @@ fn a_signal_leaves_no_partial_file() {
     }
 }
 
+/// Command lines about times and cameras, and parts of their errors.
+const TIMES_AND_CAMERAS: &[(&[&str], &[&str])] = &[
+    (&["render", "fine.json", "-o", "a.png", "--frames", "0..3"], &["fine.json has no animation", "--turntable N"]),
+    (&["render", "fine.json", "-o", "a.png", "--time", "1"], &["--time: fine.json has no animation"]),
+    (&["render", "fine.json", "-o", "a.png", "--time=-1"], &["--time", "0 or more"]),
+    (&["render", "fine.json", "-o", "a.png", "--fps", "10"], &["--fps", "--frames or --turntable"]),
+    (&["render", "fine.json", "-o", "a.png", "--turntable", "0"], &["--turntable", "1..=100000"]),
+    (&["render", "fine.json", "-o", "a.png", "--camera", "top"], &["--camera", "\"top\"", "fine.json", "any"]),
+    (&["render", "two.json", "-o", "a.png", "--camera", "top"], &["\"top\"; there are 0, 1 \"side\""]),
+    (&["verify", "two.json", "--camera", "2"], &["\"2\"; there are 0, 1 \"side\""]),
+];
+
 const SCENES: &[(&str, &str)] = &[
     ("fine.json", r#"{"objects": [{"mesh": {"teapot": {"divisions": 2}}}]}"#),
+    ("two.json", r#"{"camera": {}, "cameras": [{"name": "side"}]}"#),
     ("light.json", "{\n\"lights\": [{\"kind\": \"point\", \"attenuation\": [0, 0, -1]}]}"),
     ("size.json", "{\n\"size\": [0, 4]}"),
     ("sphere.json", "{\n\"objects\": [{\"mesh\": {\"uv_sphere\": {\"segments\": 4000000000}}}]}"),

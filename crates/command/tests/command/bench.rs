@@ -143,7 +143,7 @@ fn a_tolerance_applies_only_on_request() {
     assert_eq!(fewer, [true, false, false, true, false], "{off:?}, {coarse:?}");
 
     let render = ["render", &asset("assets/teapot.obj"), "--size", "32x32", "-o", "turn.png"];
-    succeeds(&folder, &[&render[..], &["--frames", "0..3", "--tolerance", "2.5"]].concat());
+    succeeds(&folder, &[&render[..], &["--turntable", "3", "--tolerance", "2.5"]].concat());
     succeeds(&folder, &[&render[..], &["--tolerance", "exact"]].concat());
     for bad in ["on", "-1", "inf", ""] {
         let tolerance = format!("--tolerance={bad}");

@@ -56,7 +56,7 @@ fn shadings_differ_and_samples_smooth_edges() {
 fn frames_become_an_animation_or_a_file_each() {
     let folder = folder("frames");
     let cube = asset("assets/cube.smf");
-    let common = ["render", &cube, "--size", "32x32", "--frames"];
+    let common = ["render", &cube, "--size", "32x32", "--turntable", "120", "--frames"];
     succeeds(&folder, &[&common[..], &["0..3", "-o", "turn.png", "--contact-sheet", "sheet.png"]].concat());
     let animation = fs::read(folder.join("turn.png")).expect("the animation was written");
     let chunks = |name: &[u8]| animation.windows(4).filter(|bytes| *bytes == name).count();
@@ -74,7 +74,8 @@ fn two_processes_draw_the_bytes_of_one() {
     let folder = folder("processes");
     let scene = asset("examples/scenes/brass_teapot.json");
     let draw = &|frames: &str, pattern: &str| {
-        let common = ["render", &scene, "--size", "64x36", "--tolerance", "1,0", "--frames", frames];
+        let common =
+            ["render", &scene, "--size", "64x36", "--tolerance", "1,0", "--turntable", "120", "--frames", frames];
         succeeds(&folder, &[&common[..], &["-o", pattern]].concat());
     };
     draw("0..6", "one-{}.png");

@@ -92,8 +92,8 @@ fn the_reference_renderer_writes_every_format() {
     draw(&["-o", "a.png"]);
     draw(&["-o", "b.png", "--bits", "16"]);
     draw(&["-o", "c.exr"]);
-    draw(&["-o", "turn.png", "--frames", "0..3"]);
-    draw(&["-o", "frame-{}.png", "--frames", "1..2"]);
+    draw(&["-o", "turn.png", "--turntable", "120", "--frames", "0..3"]);
+    draw(&["-o", "frame-{}.png", "--turntable", "120", "--frames", "1..2"]);
     // The same picture, rounded to 8 bits, 16 bits and single precision.
     for (a, b) in [("b.png", "a.png"), ("c.exr", "a.png"), ("turn.png", "a.png")] {
         succeeds(&folder, &["compare", a, b, "--max", "0"]);

@@ -19,7 +19,7 @@ pub struct View {
     pub lens: Lens,
     /// How many pixels a length of 1 across the view takes where w of clip space is 1.
     pub pixels_at_unit_w: f32,
-    /// The angle between the rays of neighbouring pixels in the middle of the picture, in radians.
+    /// The angle between the rays of neighbouring pixels where the axis of the view meets the picture, in radians.
     pub pixel_angle: f32,
     /// The shading of objects that name none.
     pub shading: Shading,
@@ -99,13 +99,13 @@ pub(crate) fn update(
         view.epoch += 1;
     }
     let lens: Lens = camera.projection.lens(size.to_array());
-    let rows = size.y as f32;
+    let pixels = size.as_vec2().to_array();
     *view = View {
         camera: Some(*camera),
         eye_from_world,
         lens,
-        pixels_at_unit_w: lens.pixels_at_unit_w(rows),
-        pixel_angle: lens.pixel_angle(rows),
+        pixels_at_unit_w: lens.pixels_at_unit_w(pixels),
+        pixel_angle: lens.pixel_angle(pixels),
         shading: shading.copied().unwrap_or_default(),
         reflectance: reflectance.copied().unwrap_or_default(),
         epoch: view.epoch,

@@ -18,6 +18,9 @@ pub trait Transcendental: Sized {
     /// The tangent of an angle.
     #[must_use]
     fn tangent(self) -> Self;
+    /// The angle from −π/2 to π/2 that has this tangent.
+    #[must_use]
+    fn arc_tangent(self) -> Self;
     /// `√(self² + other²)`; the squares neither overflow nor underflow.
     #[must_use]
     fn hypotenuse(self, other: Self) -> Self;
@@ -40,6 +43,10 @@ impl Transcendental for f32 {
         libm::tanf(self)
     }
 
+    fn arc_tangent(self) -> Self {
+        libm::atanf(self)
+    }
+
     fn hypotenuse(self, other: Self) -> Self {
         libm::hypotf(self, other)
     }
@@ -60,6 +67,10 @@ impl Transcendental for f64 {
 
     fn tangent(self) -> Self {
         libm::tan(self)
+    }
+
+    fn arc_tangent(self) -> Self {
+        libm::atan(self)
     }
 
     fn hypotenuse(self, other: Self) -> Self {

@@ -153,7 +153,8 @@ mod tests {
         let [x, y, z] =
             placed.rows.map(|[a, b, c, d]| c.mul_add(point[2], b.mul_add(point[1], a.mul_add(point[0], d))));
         let w = placed.lens.w(-z);
-        let share = [placed.lens.scale[0] * x / w, -placed.lens.scale[1] * y / w].map(|at| 0.5 + 0.5 * at);
+        let [right, up] = placed.lens.center;
+        let share = [placed.lens.scale[0] * x / w + right, -placed.lens.scale[1] * y / w - up].map(|at| 0.5 + 0.5 * at);
         let inside = -z >= placed.lens.near && share.iter().all(|at| (0.0..1.0).contains(at));
         inside.then(|| [0, 1].map(|axis| (share[axis] * SIZE[axis]) as u16 / TILE as u16))
     }
@@ -172,6 +173,8 @@ mod tests {
                 Lens::perspective([1.0, 16.0 / 9.0], 0.1),
                 Lens::orthographic([0.3, 0.3 * 16.0 / 9.0], [-1.0, 20.0]),
                 Lens::orthographic([0.3, 0.3 * 16.0 / 9.0], [2.0, 20.0]),
+                Lens::perspective([1.0, 16.0 / 9.0], 0.1).with_center([0.6, -1.3]),
+                Lens::orthographic([0.3, 0.3 * 16.0 / 9.0], [2.0, 20.0]).with_center([-0.7, 0.4]),
             ]),
         ) {
             let points = points.into_iter().map(|p| [0, 1, 2].map(|k| away * middle[k] + half[k] * p[k]));

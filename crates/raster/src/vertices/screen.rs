@@ -26,13 +26,14 @@ impl Screen {
     pub(crate) fn new(pass: &Pass) -> Self {
         let [width, height] = pass.size.map(f64::from);
         let [x, y] = pass.lens.scale.map(f64::from);
+        let [right, up] = pass.lens.center.map(f64::from);
         Self {
             lens: pass.lens,
             inverse_span: (1.0 / (f64::from(pass.lens.far) - f64::from(pass.lens.near))) as f32,
             scale: [(0.5 * width * x) as f32, (-0.5 * height * y) as f32],
-            center: [(0.5 * width) as f32, (0.5 * height) as f32],
+            center: [(0.5 * width * (1.0 + right)) as f32, (0.5 * height * (1.0 - up)) as f32],
             way_step: [(2.0 / (width * x)) as f32, (-2.0 / (height * y)) as f32],
-            way_start: [((1.0 / width - 1.0) / x) as f32, ((1.0 - 1.0 / height) / y) as f32],
+            way_start: [((1.0 / width - 1.0 - right) / x) as f32, ((1.0 - 1.0 / height - up) / y) as f32],
         }
     }
 

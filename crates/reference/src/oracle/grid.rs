@@ -30,7 +30,8 @@ impl VertexGrid {
         (pixel * self.places).round() / self.places
     }
 
-    /// Whether single precision may snap a point of a picture of this size, in pixels, to another grid point.
+    /// Whether single precision may snap a point to another grid point; `size` is the picture's, in pixels, or of the
+    /// numbers that the point is the sum of.
     pub(super) fn is_tie(self, pixel: DVec2, size: DVec2) -> bool {
         self.place(pixel - TIE * size) != self.place(pixel + TIE * size)
     }

@@ -17,8 +17,9 @@ use super::grid::VertexGrid;
 pub(super) struct PictureView {
     eye_from_world: DMat3,
     position: DVec3,
-    /// Half the picture's width and height where w is 1.
+    /// Half the picture's width and height where w is 1, and its middle there.
     half: DVec2,
+    middle: DVec2,
     size: DVec2,
     lens: Lens<f64>,
 }
@@ -33,12 +34,13 @@ impl PictureView {
         let (_, rotation, position) = world_from_camera.to_scale_rotation_translation();
         let eye_from_world = DMat3::from_quat(rotation.normalize()).transpose();
         let lens: Lens<f64> = camera.projection.lens(size.to_array());
+        let half = camera.projection.half_extent(size.to_array());
         let size = size.as_dvec2();
-        let half = 0.5 * camera.projection.height_at(1.0);
         eye_from_world.is_finite().then_some(Self {
             eye_from_world,
             position,
-            half: DVec2::new(half * size.x / size.y, half),
+            half: half.into(),
+            middle: camera.projection.middle().into(),
             size,
             lens,
         })
@@ -66,9 +68,9 @@ impl PictureView {
         self.eye_from_world.transpose()
     }
 
-    /// The angle between the rays of neighbouring pixels in the middle of the picture, in radians.
+    /// The angle between the rays of neighbouring pixels where the axis of the view meets the picture, in radians.
     pub(super) fn pixel_angle(&self) -> f64 {
-        self.lens.pixel_angle(self.size.y)
+        self.lens.pixel_angle(self.size.to_array())
     }
 
     /// The depth of the near plane.
@@ -125,7 +127,8 @@ impl PictureView {
     /// A point of the picture, in pixels from its top left corner, by homogeneous coordinates with w = 1.
     pub(super) fn at(&self, x: f64, y: f64) -> DVec3 {
         let DVec2 { x: width, y: height } = self.size;
-        DVec3::new((2.0 * x / width - 1.0) * self.half.x, (1.0 - 2.0 * y / height) * self.half.y, -1.0)
+        let at = DVec2::new((2.0 * x / width - 1.0) * self.half.x, (1.0 - 2.0 * y / height) * self.half.y);
+        (at + self.middle).extend(-1.0)
     }
 
     /// The ray through a point of the picture, which is given by homogeneous coordinates with w = 1.
@@ -141,7 +144,7 @@ impl PictureView {
 
     /// Where a point before the eye lies on the picture, in pixels from its top left corner.
     pub(super) fn pixel(&self, p: DVec3) -> DVec2 {
-        let at_w_1 = p.truncate() / self.w(p) / self.half;
+        let at_w_1 = (p.truncate() / self.w(p) - self.middle) / self.half;
         0.5 * self.size * (1.0 + DVec2::new(at_w_1.x, -at_w_1.y))
     }
 
@@ -151,14 +154,17 @@ impl PictureView {
         let exact = self.pixel(p);
         let pixel = grid.place(exact);
         let at_w_1 = 2.0 * pixel / self.size - 1.0;
-        let on_grid = DVec2::new(at_w_1.x, -at_w_1.y) * self.half * self.w(p);
+        let on_grid = (DVec2::new(at_w_1.x, -at_w_1.y) * self.half + self.middle) * self.w(p);
+        // What a shift adds is rounded, too.
+        let reach = self.size * (1.0 + (self.middle / self.half).abs());
         // A point in the plane of the eye has no projection.
-        if on_grid.is_finite() { (on_grid.extend(p.z), grid.is_tie(exact, self.size)) } else { (p, false) }
+        if on_grid.is_finite() { (on_grid.extend(p.z), grid.is_tie(exact, reach)) } else { (p, false) }
     }
 
     /// [`pixel`](Self::pixel) less `origin`, times w: linear in space, and finite wherever the point lies.
     pub(super) fn pixel_by_w(&self, p: DVec3, origin: DVec2) -> DVec2 {
-        let by_w = DVec2::new(p.x, -p.y) / self.half;
+        let from_middle = p.truncate() - self.w(p) * self.middle;
+        let by_w = DVec2::new(from_middle.x, -from_middle.y) / self.half;
         0.5 * self.size * by_w + self.w(p) * (0.5 * self.size - origin)
     }
 

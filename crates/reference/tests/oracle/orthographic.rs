@@ -1,7 +1,7 @@
-//! Orthographic cameras: rays, planes, highlights, and pictures with planted faults.
+//! Orthographic and off-centre cameras: rays, planes, highlights, and pictures with planted faults.
 
 use bevy_math::{DVec3, Vec3};
-use halfway_lighting::{DirectionalLight, Faces, Material, PointLight, Projection, Viewer};
+use halfway_lighting::{DirectionalLight, Faces, Film, Material, PointLight, Projection, Viewer};
 use halfway_mesh::UvSphere;
 use halfway_reference::Mode;
 
@@ -11,8 +11,12 @@ use crate::scene::{SHADINGS, Stage, assert_close, glow, grey, panel, wall};
 /// The stage under a camera that sees 4 units from edge to edge, from depth `near` on.
 fn stage(near: f32, far: Option<f32>) -> Stage {
     let mut stage = Stage::new();
-    stage.camera().projection = Projection::Orthographic { height: 4.0, near, far };
+    stage.camera().projection = orthographic(4.0, near, far);
     stage
+}
+
+fn orthographic(height: f32, near: f32, far: Option<f32>) -> Projection {
+    Projection::Orthographic { height, near, far, film: Film::DEFAULT }
 }
 
 fn tilted_wall() -> halfway_mesh::Mesh {
@@ -106,17 +110,57 @@ fn balls(projection: Projection) -> Stage {
 
 #[test]
 fn faults_of_an_orthographic_drawer_are_caught() {
-    let right = Projection::Orthographic { height: 4.0, near: 0.0, far: Some(9.0) };
+    let right = orthographic(4.0, 0.0, Some(9.0));
     let mut truth = balls(right);
     let verdict = float(&oracle(&mut truth), &truth.draw(96, 96));
     assert!(verdict.is_within(), "{verdict}");
     for (fault, wrong) in [
         ("a perspective", Projection::perspective(2.0 * 0.5_f32.atan())),
-        ("another height", Projection::Orthographic { height: 4.04, near: 0.0, far: Some(9.0) }),
-        ("a near plane too far away", Projection::Orthographic { height: 4.0, near: 2.6, far: Some(9.0) }),
-        ("a far plane too near", Projection::Orthographic { height: 4.0, near: 0.0, far: Some(4.9) }),
+        ("another height", orthographic(4.04, 0.0, Some(9.0))),
+        ("a near plane too far away", orthographic(4.0, 2.6, Some(9.0))),
+        ("a far plane too near", orthographic(4.0, 0.0, Some(4.9))),
     ] {
         let actual = balls(wrong).draw(96, 96);
         assert_caught(fault, &mut truth, &actual);
+    }
+}
+
+#[test]
+fn rays_of_a_calibrated_camera_meet_a_slanted_wall_where_it_is() {
+    let mut stage = Stage::new();
+    stage.camera().projection = Projection::intrinsics([40.0, 50.0], [11.0, 13.5], [40, 20]);
+    stage.add(tilted_wall(), glow(1.0, 1.0, 1.0));
+    let oracle = stage.oracle(40, 20);
+    for (x, y) in (0..20).flat_map(|y| (0..40).map(move |x| (x, y))) {
+        let (across, down) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let slope = DVec3::new((across - 11.0) / 40.0, (13.5 - down) / 50.0, -1.0);
+        // z = −3 + x/2 − y/4 on the wall.
+        let depth = 3.0 / (1.0 + 0.5 * slope.x - 0.25 * slope.y);
+        let expected = slope * depth;
+        let nearest = oracle.probe(across, down).nearest.expect("the wall");
+        // The field of view is an f32.
+        assert!(nearest.position.distance(expected) < 2e-6, "{nearest:?}, expected {expected}");
+        let (u, v) = oracle.project(nearest.position).expect("on the picture");
+        assert!((u - across).abs() < 1e-12 && (v - down).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn faults_of_an_off_centre_drawer_are_caught() {
+    let film = Film { shift: [0.15, -0.1], aspect: None, pixel_aspect: 1.2 };
+    for plain in [Projection::perspective(0.9), orthographic(3.6, 0.0, Some(9.0))] {
+        let mut truth = balls(plain.with_film(film));
+        let verdict = float(&oracle(&mut truth), &truth.draw(96, 96));
+        assert!(verdict.is_within(), "{verdict}");
+        for (fault, wrong) in [
+            ("no shift", Film { shift: [0.0; 2], ..film }),
+            ("to the other side", Film { shift: [-0.15, -0.1], ..film }),
+            ("down for up", Film { shift: [0.15, 0.1], ..film }),
+            ("a shift of a third of a pixel more", Film { shift: [0.1535, -0.1], ..film }),
+            ("square pixels", Film { pixel_aspect: 1.0, ..film }),
+        ] {
+            let actual = balls(plain.with_film(wrong)).draw(96, 96);
+            assert_caught(fault, &mut truth, &actual);
+        }
     }
 }

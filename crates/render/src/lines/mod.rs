@@ -202,7 +202,7 @@ impl Drawing<'_> {
         let nearness = line.nearness[0] + along * (line.nearness[1] - line.nearness[0]);
         let depth = if self.lens().w(2.0) == 1.0 { -nearness } else { nearness.recip() };
         // What a quarter of a pixel can hide.
-        let depth = depth - 0.25 * self.lens().pixel_size(depth, f64::from(self.size().y));
+        let depth = depth - 0.25 * self.lens().pixel_size(depth, self.size().as_dvec2().to_array());
         AROUND.into_iter().any(|step| {
             let [x, y] = (pixel + step).to_array();
             let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return false };

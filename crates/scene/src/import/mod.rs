@@ -17,6 +17,7 @@
 //! # }
 //! ```
 
+mod camera;
 mod maps;
 mod metallic_roughness;
 mod model_material;
@@ -24,6 +25,7 @@ mod mtl;
 mod punctual;
 mod warning;
 
+pub use camera::model_camera;
 pub use metallic_roughness::{
     DIELECTRIC_REFLECTANCE, SHININESS_MAX, from_metallic_roughness, shininess_from_roughness,
 };
@@ -32,4 +34,5 @@ pub use mtl::from_mtl;
 pub use punctual::{RADIANCE_SCALE, from_punctual, model_light};
 pub use warning::Warning;
 
+pub(crate) use camera::camera_place;
 pub(crate) use maps::{channel, maps, sampling, transform};

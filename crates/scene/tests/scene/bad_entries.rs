@@ -88,6 +88,12 @@ pub(super) const LIGHTS: &[BadEntry] = &[
         52,
         r#".attach.object`: is "pot"; no object of the scene has that name"#,
     ),
+    (r#""kind": "point", "attach": {"object": 2}"#, 52, ".attach.object`: is 2; the scene has 0 objects"),
+    (
+        r#""kind": "directional", "animation": [{"of": "position", "keys": [[0, [0, 0, 0]]]}]"#,
+        58,
+        r#".animation[0].of`: is "position"; expected a key of this light: direction, ambient, diffuse, specular"#,
+    ),
 ];
 
 /// The keys of an object, the column of its error, and the message about it.
@@ -106,9 +112,34 @@ pub(super) const OBJECTS: &[BadEntry] = &[
         r#".mesh`: is a value of the wrong type: string "a.obj", expected an object with one of the keys path, "#,
     ),
     (
-        r#""mesh": {"torus": {}}"#,
+        r#""mesh": {"tetrahedron": {}}"#,
         24,
-        ".mesh.torus`: unknown key `torus`, expected an object with one of the keys path, uv_sphere, plane, box, ",
+        ".mesh.tetrahedron`: unknown key `tetrahedron`, expected an object with one of the keys path, uv_sphere, plane, ",
+    ),
+    (r#""mesh": {"torus": {"tube": 0}}"#, 42, ".mesh.torus.tube`: is 0; expected a length from 1e-30 to 1e30"),
+    (r#""mesh": {"torus": {"tube": 2}}"#, 42, ".mesh.torus.tube`: is 2; "),
+    (r#""mesh": {"torus": {"rows": 2}}"#, 42, ".mesh.torus.rows`: is 2; expected at least 3 for this surface"),
+    (r#""mesh": {"cone": {"rows": 4000}}"#, 41, ".mesh.cone.rows`: is 4000; expected 1 to 2048"),
+    (
+        r#""mesh": {"bezier": {"points": [[[0, 0, 0]]]}}"#,
+        45,
+        ".mesh.bezier.points`: columns: 1; a number from 2 to 33 is expected",
+    ),
+    (
+        r#""mesh": {"bezier": {"points": [[[0, 0, 0], [1, 0, 0]], [[0, 0, 0]]]}}"#,
+        34,
+        ".mesh.bezier`: `points[1]` has 1 items; expected 2, as the row before",
+    ),
+    (r#""mesh": {"height_field": {}}"#, 40, ".mesh.height_field`: has no heights; expected `path` or `heights`"),
+    (
+        r#""mesh": {"height_field": {"path": "a.png", "heights": [[0, 1], [2, 3]]}}"#,
+        40,
+        ".mesh.height_field`: `path` cannot stand beside `heights`",
+    ),
+    (
+        r#""mesh": {"box": {}}, "normals": {"creased": {"angle_deg": 200}}"#,
+        73,
+        ".normals.creased.angle_deg`: is 200; expected degrees from 0 to 180",
     ),
     (r#""mesh": {"box": {}, "plane": {}}"#, 35, ".mesh.plane`: unknown key `plane`, expected one key only: "),
     (r#""mesh": {"box": {"side": 1}}"#, 32, ".mesh.box.side`: unknown key `side`, expected `size`"),

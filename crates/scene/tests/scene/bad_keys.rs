@@ -96,7 +96,7 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"camera": {"fov": 45}}"#,
         (1, 13),
-        "`camera.fov`: unknown key `fov`, expected one of `position`, `target`, `up`, ",
+        "`camera.fov`: unknown key `fov`, expected one of `name`, `position`, `target`, `up`, ",
     ),
     (
         r#"{"camera": []}"#,

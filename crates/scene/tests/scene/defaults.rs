@@ -83,7 +83,7 @@ fn defaults_agree_with_those_of_the_components() {
     assert_eq!(ConeEntry::default().cutoff_deg.to_radians(), Cone::default().cutoff);
     let (scene, camera) = (SceneFile::default(), Camera::default());
     let CameraEntry { fov_y_deg, near, .. } = CameraEntry::default();
-    assert_eq!(Projection::Perspective { fov_y: fov_y_deg.to_radians(), near }, camera.projection);
+    assert_eq!(Projection::perspective(fov_y_deg.to_radians()).with_near(near), camera.projection);
     assert_eq!(scene.output, camera.encoding);
     assert_eq!(scene.viewer, camera.viewer);
     assert_eq!(scene.reflectance, Reflectance::default());

@@ -2,10 +2,12 @@
 
 #![allow(clippy::float_cmp, reason = "what is read and written has to be exact")]
 
+mod animation;
 mod bad;
 mod bad_entries;
 mod bad_keys;
 mod bad_values;
+mod cameras;
 mod defaults;
 mod documented;
 mod environment;
@@ -18,4 +20,5 @@ mod past_failures;
 mod retired;
 mod solid;
 mod spawned;
+mod surfaces;
 mod unshown;

@@ -66,7 +66,7 @@ fn the_camera_carries_the_view() {
     let camera: Camera = get(&app, spawned.camera).unwrap();
     assert_eq!(camera.background, LinearRgba::rgb(0.1, 0.2, 0.3));
     assert_eq!((camera.samples, camera.encoding, camera.viewer), (Samples::Four, Encoding::Raw, Viewer::Infinite));
-    assert_eq!(camera.projection, Projection::Perspective { fov_y: std::f32::consts::FRAC_PI_2, near: 0.5 });
+    assert_eq!(camera.projection, Projection::perspective(std::f32::consts::FRAC_PI_2).with_near(0.5));
     assert_eq!(get::<Shading>(&app, spawned.camera), Some(Shading::Flat));
     assert_eq!(get::<Reflectance>(&app, spawned.camera), Some(Reflectance::Phong));
     assert_eq!(app.world().resource::<GlobalAmbient>().0, LinearRgba::rgb(0.4, 0.5, 0.6));

@@ -37,7 +37,10 @@ fn light(random: &mut Rng, unit: f64, objects: usize, brightness: f64) -> Value 
     }
     light.perhaps(random, 30, "attach", |random| match random.u64(0..=4) {
         0 => json!("world"),
-        1..3 if objects > 0 => json!({ "object": format!("o{}", random.u64(..objects as u64)) }),
+        1..3 if objects > 0 => {
+            let index = random.u64(..objects as u64);
+            json!({ "object": if random.percent(50) { json!(index) } else { format!("o{index}").into() } })
+        }
         _ => json!("camera"),
     });
     match kind {

@@ -8,6 +8,9 @@ use crate::random::RngExt;
 
 pub(super) fn mesh(random: &mut Rng, unit: f64) -> Value {
     let size = unit * random.between(0.4, 1.6);
+    if random.percent(30) {
+        return surface(random, size);
+    }
     match random.u64(0..=99) {
         0..35 => json!({ "uv_sphere": {
             "radius": short(size),
@@ -32,6 +35,81 @@ pub(super) fn mesh(random: &mut Rng, unit: f64) -> Value {
             inline(random, mesh)
         }
     }
+}
+
+/// A surface by formula, cut by count or by chord error.
+fn surface(random: &mut Rng, size: f64) -> Value {
+    let mut keys = Object::new();
+    let name = random.choose(&[
+        "icosphere",
+        "ellipsoid",
+        "cylinder",
+        "cone",
+        "torus",
+        "capsule",
+        "disc",
+        "paraboloid",
+        "hyperboloid",
+        "hyperboloid_sheet",
+        "bezier",
+        "polynomial",
+        "height_field",
+    ]);
+    let share = |random: &mut Rng| short(size * random.between(0.3, 0.9));
+    if !["ellipsoid", "bezier", "polynomial", "height_field"].contains(&name) {
+        keys.set("radius", json!(short(size)));
+    }
+    match name {
+        "icosphere" => keys.set("divisions", json!(random.u64(1..=8))),
+        "ellipsoid" => keys.set("radii", shorts([size, share(random), share(random)])),
+        "cylinder" | "cone" => {
+            keys.set("height", json!(share(random)));
+            keys.perhaps(random, 70, "capped", |random| random.percent(50).into());
+        }
+        "torus" => keys.set("tube", json!(share(random))),
+        "capsule" => keys.set("length", json!(share(random))),
+        "disc" => {
+            keys.perhaps(random, 70, "center", |random| shorts(random.direction().map(|c| c * size)));
+            keys.perhaps(random, 70, "normal", |random| shorts(random.direction()));
+        }
+        "paraboloid" => keys.set("height", json!(share(random))),
+        "hyperboloid" => {
+            keys.set("waist", json!(share(random)));
+            keys.set("height", json!(short(size * random.between(0.5, 2.0))));
+        }
+        "hyperboloid_sheet" => {
+            keys.set("gap", json!(share(random)));
+            keys.set("height", json!(share(random)));
+            keys.perhaps(random, 70, "upper", |random| random.percent(50).into());
+        }
+        "height_field" => {
+            let [rows, columns] = [random.u64(2..=5), random.u64(2..=5)];
+            let row =
+                |random: &mut Rng| -> Value { (0..columns).map(|_| short(random.f64())).collect::<Vec<_>>().into() };
+            keys.set("size", shorts([2.0 * size, size]));
+            keys.set("amount", json!(share(random)));
+            keys.set("heights", (0..rows).map(|_| row(random)).collect::<Vec<_>>().into());
+        }
+        _ => {
+            let [rows, columns] = [random.u64(2..=4), random.u64(2..=4)];
+            let along = |i: u64, count: u64| 2.0 * size * (i as f64 / (count - 1) as f64 - 0.5);
+            let rows = (0..rows).map(|i| {
+                let point = |j: u64| {
+                    let [x, y, z] = random.direction().map(|c| 0.4 * size * c);
+                    shorts([x - along(j, columns), y, z + along(i, rows)])
+                };
+                Value::from((0..columns).map(point).collect::<Vec<_>>())
+            });
+            let points = Value::from(rows.collect::<Vec<_>>());
+            keys.set(if name == "bezier" { "points" } else { "coefficients" }, points);
+        }
+    }
+    if name != "icosphere" {
+        keys.perhaps(random, 60, "rows", |random| random.u64(3..=12).into());
+        keys.perhaps(random, 60, "columns", |random| random.u64(3..=24).into());
+        keys.perhaps(random, 25, "chord_error", |random| json!(short(size * random.between(0.01, 0.1))));
+    }
+    json!({ name: Value::from(keys) })
 }
 
 /// Positions and triangles.

@@ -3,7 +3,7 @@
 use fastrand::Rng;
 use serde_json::{Value, json};
 
-use super::{Object, short, shorts};
+use super::{Object, appearance, short, shorts};
 use crate::random::RngExt;
 
 /// The length that all others are multiples of: usually 1.
@@ -33,18 +33,62 @@ pub(super) fn camera(random: &mut Rng, unit: f64) -> Value {
     let aside = random.between(0.0, 0.4) * distance.min(2.0);
     camera.perhaps(random, 70, "target", |random| shorts(at_distance(random, aside * unit)));
     camera.set("up", shorts(random.direction()));
-    camera.perhaps(random, 60, "fov_y_deg", |random| match random.u64(0..=9) {
-        0 => json!(short(random.between(120.0, 165.0))),
-        1 => json!(short(random.between(1.0, 10.0))),
-        _ => json!(short(random.between(20.0, 90.0))),
-    });
     // In scenes of another size the default would clip everything.
-    let near = match random.u64(0..=3) {
+    let mut near = match random.u64(0..=3) {
         0 => random.magnitude(-10, -1),
         _ => 0.1,
     };
+    match random.u64(0..=9) {
+        0 => camera.set("intrinsics", intrinsics(random)),
+        1..3 => {
+            near = random.between(-9.0, 2.0);
+            camera.set("height", json!(short(random.between(0.5, 7.0) * unit)));
+            camera.perhaps(random, 40, "far", |random| json!(short((near + random.between(2.0, 20.0)) * unit)));
+            film(random, &mut camera);
+        }
+        _ => {
+            camera.perhaps(random, 60, "fov_y_deg", |random| match random.u64(0..=9) {
+                0 => json!(short(random.between(120.0, 165.0))),
+                1 => json!(short(random.between(1.0, 10.0))),
+                _ => json!(short(random.between(20.0, 90.0))),
+            });
+            film(random, &mut camera);
+        }
+    }
     camera.set("near", json!(short(near * unit)));
+    camera.perhaps(random, 10, "shading", appearance::shading);
+    camera.perhaps(random, 10, "reflectance", appearance::reflectance);
     camera.into()
+}
+
+/// Usually in the middle, with square pixels.
+fn film(random: &mut Rng, camera: &mut Object) {
+    camera.perhaps(random, 20, "shift", |random| shorts([random.between(-0.6, 0.6), random.between(-0.6, 0.6)]));
+    camera.perhaps(random, 15, "aspect", |random| json!(short(random.between(0.3, 3.0))));
+    camera.perhaps(random, 15, "pixel_aspect", |random| json!(short(random.between(0.4, 2.5))));
+}
+
+fn intrinsics(random: &mut Rng) -> Value {
+    let size = [random.u64(40..=400), random.u64(40..=400)];
+    let focal = short(random.between(0.5, 3.0) * size[1] as f64);
+    let center = size.map(|side| side as f64 * random.between(0.2, 0.8));
+    json!({ "focal": shorts([focal, focal * random.between(0.5, 2.0)]), "center": shorts(center), "size": size })
+}
+
+/// One key of a transform that is in parts, in time; the judge sees it at time 0.
+pub(super) fn animation(random: &mut Rng, unit: f64) -> Value {
+    let of = random.choose(&["translation", "rotation"]);
+    let value = |random: &mut Rng| {
+        let distance = random.between(0.0, 2.0) * unit;
+        if of == "rotation" { quaternion(random) } else { shorts(at_distance(random, distance)) }
+    };
+    let (first, last) = (value(random), value(random));
+    let mut track = Object::new();
+    track.set("of", of.into());
+    track.set("keys", json!([[0, first], [short(random.between(0.5, 3.0)), last]]));
+    track.perhaps(random, 60, "interpolation", |random| random.choose(&["linear", "step"]).into());
+    track.perhaps(random, 60, "repeat", |random| random.percent(50).into());
+    json!([Value::from(track)])
 }
 
 /// In parts or as a matrix; mirrored, skew and flattened ones among them.

@@ -51,7 +51,8 @@ impl SurroundingsRecord {
         for (record, EnvironmentLevel { side, start }) in level.iter_mut().zip(placed.map.levels()) {
             *record = [*start as u32, *side, 0, 0];
         }
-        let [x, y, _] = view.lens.ray([1.0; 2]).direction;
+        let [corner, middle] = [1.0, 0.0].map(|at| view.lens.ray([at; 2]).direction);
+        let [x, y] = [0, 1].map(|axis| corner[axis] - middle[axis]);
         Self {
             row0,
             row1,
@@ -61,7 +62,7 @@ impl SurroundingsRecord {
             first_angle: -placed.map.level_of(1.0_f64) as f32,
             sky_level: placed.sky.unwrap_or_default(),
             width,
-            way: [x, y, 0.0, 0.0],
+            way: [x, y, middle[0], middle[1]],
             levels: [placed.map.levels().len() as u32, 0, 0, 0],
             level,
         }

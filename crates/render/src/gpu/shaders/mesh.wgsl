@@ -35,7 +35,8 @@ fn eye_normal(object: Object, normal: vec3f) -> vec3f {
 
 // Reversed depth: z/w is 1 at the near plane.
 fn clip_position(eye: vec3f) -> vec4f {
-    return vec4f(view.scale * eye.xy, view.depth.x * -eye.z + view.depth.y, clip_w(eye));
+    let w = clip_w(eye);
+    return vec4f(view.scale * eye.xy + view.center * w, view.depth.x * -eye.z + view.depth.y, w);
 }
 
 // w of clip space.

@@ -20,14 +20,15 @@ pub(crate) struct ViewRecord {
     /// z of clip space by the depth, and w.
     pub(crate) depth: [f32; 2],
     pub(crate) w: [f32; 2],
-    pub(crate) padding: [f32; 2],
+    /// Where the axis of the view meets the picture.
+    pub(crate) center: [f32; 2],
 }
 
 impl From<&View> for ViewRecord {
     fn from(view: &View) -> Self {
         let lens: Lens = view.lens_of_shaders();
         let LensTerms { depth, w } = lens.terms();
-        Self { scale: lens.scale, depth, w, padding: [0.0; 2] }
+        Self { scale: lens.scale, depth, w, center: lens.center }
     }
 }
 

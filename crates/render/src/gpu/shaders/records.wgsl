@@ -5,10 +5,10 @@ override LISTED: bool = false;
 override LIGHTS: u32 = 0;
 
 struct View {
-    scale: vec2f,        // x and y of clip space by those of eye space
+    scale: vec2f,        // x and y of clip space are these times those of eye space, plus center * w
     depth: vec2f,        // z of clip space at the depth d = -z is depth.x * d + depth.y
     w: vec2f,            // and w is w.x * d + w.y: d in a perspective, 1 where rays are parallel
-    padding: vec2f,
+    center: vec2f,       // where the axis of the view meets the picture
 }
 
 // Materials and lights. Of the lights, the first of their numbers in `lists`, and the count.

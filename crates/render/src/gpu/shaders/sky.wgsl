@@ -16,7 +16,7 @@ fn vs_sky(@builtin(vertex_index) number: u32) -> Sky {
 
 @fragment
 fn fs_sky(in: Sky) -> @location(0) vec4f {
-    let way = environment_direction(vec3f(in.at * around.way.xy, -1.0));
+    let way = environment_direction(vec3f(in.at * around.way.xy + around.way.zw, -1.0));
     let color = around.strength * surroundings_at(way, around.sky_level);
     if ENCODED {
         return vec4f(srgb_encoded(clamp(color, vec3f(0.0), vec3f(1.0))), 1.0);
