@@ -8,15 +8,19 @@ mod chart;
 mod compare;
 mod convert;
 mod drawing;
+mod empty;
 mod failure;
 mod figures;
+mod framing;
 mod info;
 mod input;
+mod look;
 mod picture;
 mod progress;
 mod render;
 #[cfg(feature = "measure")]
 mod scenery;
+mod sheet;
 mod steps;
 mod tolerance;
 mod turntable;
@@ -101,17 +105,18 @@ fn restore_sigpipe() {
 }
 
 fn main() -> ExitCode {
-    // The commands print errors of frames themselves.
-    let filter = "warn,wgpu_hal=off,halfway_render::errors=off";
-    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(filter))
-        .format(|line, record| writeln!(line, "{}: {}", record.level().as_str().to_lowercase(), record.args()))
-        .init();
     let command = Cli::parse().command;
     // A window's connection to its display must not end the process.
     #[cfg(feature = "window")]
     let has_window = matches!(command, Command::View(_));
     #[cfg(not(feature = "window"))]
     let has_window = false;
+    // The commands print errors of frames themselves, and why a picture is empty.
+    let empty = if has_window { "" } else { ",halfway_render::empty=off" };
+    let filter = format!("warn,wgpu_hal=off,halfway_render::errors=off{empty}");
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(filter))
+        .format(|line, record| writeln!(line, "{}: {}", record.level().as_str().to_lowercase(), record.args()))
+        .init();
     if !has_window {
         restore_sigpipe();
     }

@@ -5,21 +5,24 @@ use std::path::PathBuf;
 
 use clap::Args;
 use halfway::prelude::*;
-use halfway::record::{Recording, ReferenceDrawing, record, record_with};
+use halfway::record::{FrameToDraw, RecordError, Recording, ReferenceDrawing, record_with};
 use halfway::reference::Mode;
 use halfway::render::Adapter;
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
 use crate::input::SceneInput;
+use crate::empty::warn_if_empty;
 use crate::progress::Progress;
+use crate::sheet::{Views, parse_views};
 use crate::turntable::Turntable;
 
 #[derive(Args, Debug)]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     drawing: DrawingArgs,
-    /// The picture: .png or .exr; with --frames an animated PNG, or one file a frame if the name has a {}
+    /// The picture: .png, .jpg, .webp or .exr; with --frames an animated PNG, or one file a frame if the name has a {};
+    /// - writes to standard output, a PNG unless --format says otherwise
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
@@ -27,6 +30,10 @@ pub(crate) struct RenderArgs {
     /// Frames A to B − 1 of a turn around the scene's upright axis, 3° a frame, 30 frames a second
     #[arg(long, value_name = "A..B", value_parser = parse_frames)]
     frames: Option<Range<u32>>,
+    /// Several views on one sheet with captions, each of --size, such as front,right,top,iso; with --ortho at one scale
+    #[arg(long, value_name = "LIST", value_parser = parse_views, allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["view", "frames", "contact_sheet"])]
+    views: Option<Views>,
     /// Bits a channel: 8 or 16 in a PNG, 32 in an EXR [default: 8; 32]
     #[arg(long)]
     bits: Option<u32>,
@@ -77,21 +84,37 @@ impl Drawer {
 
     fn record(&self, app: &mut App, recording: &Recording) -> Result<(), Failure> {
         let frames = recording.frames.len() as u32;
-        match self {
-            Self::Adapter(_) => {
-                let progress = Progress::for_frames(frames);
-                record(app, recording, |done, _| progress.frame(done))?;
+        let progress = match self {
+            Self::Adapter(_) => Progress::for_frames(frames),
+            Self::Reference(_) => Progress::for_tiles(frames),
+        };
+        let mut is_first = true;
+        let draw = |app: &mut App, frame: FrameToDraw| {
+            let picture = self.picture(app, frame, frame.number.saturating_sub(recording.frames.start), &progress)?;
+            if std::mem::take(&mut is_first) {
+                warn_if_empty(app, &picture);
             }
-            Self::Reference(drawing) => {
-                let progress = Progress::for_tiles(frames);
-                let draw = |app: &mut App, frame: halfway::record::FrameToDraw| {
-                    let index = frame.number - recording.frames.start;
-                    drawing.picture(app, frame, &|done, of| progress.tile(index, done, of))
-                };
-                record_with(app, recording, draw, |_, _| progress.going_on())?;
-            }
-        }
+            Ok(picture)
+        };
+        record_with(app, recording, draw, |done, _| match self {
+            Self::Adapter(_) => progress.frame(done),
+            Self::Reference(_) => progress.going_on(),
+        })?;
         Ok(())
+    }
+
+    /// One picture, the `index`th that progress is reported of.
+    fn picture(
+        &self,
+        app: &mut App,
+        frame: FrameToDraw,
+        index: u32,
+        progress: &Progress,
+    ) -> Result<Picture, RecordError> {
+        match self {
+            Self::Adapter(_) => Ok(render_picture(app)?),
+            Self::Reference(drawing) => drawing.picture(app, frame, &|done, of| progress.tile(index, done, of)),
+        }
     }
 }
 
@@ -102,17 +125,52 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         frames: args.frames.clone().unwrap_or(0..1),
         size,
         bits: args.bits,
+        format: args.drawing.input.picture_format().map(str::to_owned),
         contact_sheet: args.contact_sheet.clone(),
         ..Recording::new(args.output.clone())
     };
     let drawer = Drawer::choose(args)?;
     let mut app = drawer.app(size);
     let spawned = input.spawn(&mut app)?;
+    if let Some(views) = &args.views {
+        return draw_sheet(args, views, &input, &recording, &drawer, (&mut app, spawned.camera));
+    }
     if args.frames.is_some() {
         // A full turn in 120 frames.
         Turntable::turn(&mut app, spawned.camera, std::f32::consts::TAU / 120.0);
     }
     drawer.record(&mut app, &recording)
+}
+
+/// Draws several views on one sheet.
+fn draw_sheet(
+    args: &RenderArgs,
+    views: &Views,
+    input: &SceneInput,
+    recording: &Recording,
+    drawer: &Drawer,
+    (app, camera): (&mut App, Entity),
+) -> Result<(), Failure> {
+    let (size, pixels) = (recording.size, Pixels::Byte);
+    if recording.format_of(0)?.pixels() != pixels {
+        let file = recording.path.display();
+        return Err(format!("{file}: a sheet of views has 8 bits a channel; expected a PNG of 8 bits, say").into());
+    }
+    app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
+    app.insert_resource(Headless { size, pixels });
+    app.finish();
+    app.cleanup();
+    let fov_y = input.scene.camera.unwrap_or_default().fov_y_deg.to_radians();
+    let progress = Progress::for_tiles(1);
+    let draw = |app: &mut App, number: u32| {
+        let picture = drawer.picture(app, FrameToDraw { number, size, pixels }, 0, &progress)?;
+        warn_if_empty(app, &picture);
+        Ok(picture)
+    };
+    let framing = (&args.drawing.framing, Projection::perspective(fov_y));
+    let (sheet, encoding) = views.draw(framing, (app, camera), size, draw)?;
+    drop(progress);
+    Ok(recording.write(0, &sheet, encoding)?)
 }
 
 fn parse_frames(text: &str) -> Result<Range<u32>, String> {

@@ -119,6 +119,20 @@ impl Projection {
         }
     }
 
+    /// The projection with the middle of the picture magnified, `zoom` times and above 0: a narrower field of view, or
+    /// less height.
+    #[must_use]
+    pub fn zoomed(self, zoom: f32) -> Self {
+        match self {
+            Self::Perspective { fov_y, near } if zoom != 1.0 => {
+                let half = (f64::from(fov_y) * 0.5).tangent() / f64::from(zoom);
+                Self::Perspective { fov_y: 2.0 * libm::atan(half) as f32, near }
+            }
+            Self::Orthographic { height, near, far } => Self::Orthographic { height: height / zoom, near, far },
+            perspective => perspective,
+        }
+    }
+
     /// The projection after the camera has moved along its view from one distance from what it looks at to another. An
     /// orthographic picture shows more by the same factor, and its planes stay where they are; a perspective stays as it
     /// is.

@@ -13,7 +13,7 @@ use halfway_reference::OracleError;
 use halfway_render::{Headless, Picture, Pixels, RenderError, render_picture};
 use thiserror::Error;
 
-use crate::output::{AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, write_picture};
+use crate::output::{AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, encode_picture, write_picture};
 
 /// Makes the target a texture of `size` pixels. Part of `HalfwayPlugins::headless`.
 ///
@@ -55,8 +55,9 @@ impl Plugin for HeadlessPlugin {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
-    /// The file. One frame makes a picture: `.png` or `.exr`. More make an animated PNG, or a file each where the path
-    /// has a `{}`, which becomes the frame's number with four digits.
+    /// The file. One frame makes a picture: `.png`, `.jpg`, `.webp` or `.exr`. More make an animated PNG, or a file each
+    /// where the path has a `{}`, which becomes the frame's number with four digits. `-` is standard output, for one
+    /// frame.
     pub path: PathBuf,
     /// The frames to keep, counted from 0. Those before the first run as well, since motion continues from frame to
     /// frame; they are drawn small, or in full if the camera's intensity policy depends on the frame before. Default
@@ -66,6 +67,9 @@ pub struct Recording {
     pub size: UVec2,
     /// Bits a channel, as [`PictureFormat::from_path`] takes them; `None` is the format's default.
     pub bits: Option<u32>,
+    /// The format of pictures, as the ending of a file without its dot; `None` where the path has it. PNG on standard
+    /// output.
+    pub format: Option<String>,
     /// Frames a second: the App's time advances by 1/`rate` between frames. Default 30.
     pub rate: u16,
     /// The file for a contact sheet of up to 16 of the frames, if any.
@@ -78,7 +82,39 @@ impl Recording {
 
     /// Records the first frame, at 1280 × 720, to `path`.
     pub fn new(path: PathBuf) -> Self {
-        Self { path, frames: 0..1, size: Self::SIZE, bits: None, rate: 30, contact_sheet: None }
+        Self { path, frames: 0..1, size: Self::SIZE, bits: None, format: None, rate: 30, contact_sheet: None }
+    }
+
+    /// Whether the picture goes to standard output.
+    pub fn is_standard_output(&self) -> bool {
+        self.path == Path::new("-")
+    }
+
+    /// The format of the picture of a frame.
+    ///
+    /// # Errors
+    /// As [`PictureFormat::from_path`].
+    pub fn format_of(&self, frame: u32) -> Result<PictureFormat, OutputError> {
+        let path = self.path_of(frame);
+        let ending = self.format.as_deref().or(self.is_standard_output().then_some("png"));
+        // Errors name the file as it was given.
+        match ending {
+            Some(ending) => PictureFormat::from_ending(ending, &path, self.bits),
+            None => PictureFormat::from_path(&path, self.bits),
+        }
+    }
+
+    /// Writes the picture of a frame to its file, or to standard output.
+    ///
+    /// # Errors
+    /// As [`write_picture`].
+    pub fn write(&self, frame: u32, picture: &Picture, encoding: Encoding) -> Result<(), OutputError> {
+        let format = self.format_of(frame)?;
+        if self.is_standard_output() {
+            let name = Path::new("standard output");
+            return encode_picture(picture, &mut std::io::stdout().lock(), name, format, encoding);
+        }
+        write_picture(picture, &self.path_of(frame), format, encoding)
     }
 
     /// Whether the frames go into one animated PNG.
@@ -229,7 +265,7 @@ pub fn record_with(
     let pixels = if recording.is_animation() {
         Pixels::Byte
     } else {
-        PictureFormat::from_path(&recording.path_of(0), recording.bits)?.pixels()
+        recording.format_of(0)?.pixels()
     };
     let [full, small] =
         [recording.size, (recording.size / SMALLER).max(UVec2::ONE)].map(|size| Headless { size, pixels });
@@ -319,7 +355,7 @@ impl<'a> Sink<'a> {
                 return Err(OutputError::Bits { file, bits, expected: "8 in an animated PNG" }.into());
             }
         } else {
-            PictureFormat::from_path(&recording.path_of(0), recording.bits)?;
+            recording.format_of(0)?;
         }
         if let Some(sheet) = &recording.contact_sheet {
             PictureFormat::from_path(sheet, Some(8))?;
@@ -345,9 +381,7 @@ impl<'a> Sink<'a> {
             };
             animation.frame(picture)?;
         } else {
-            let path = recording.path_of(frame);
-            let format = PictureFormat::from_path(&path, recording.bits)?;
-            write_picture(picture, &path, format, encoding)?;
+            recording.write(frame, picture, encoding)?;
         }
         if let Some(path) = &recording.contact_sheet {
             let index = frame - recording.frames.start;

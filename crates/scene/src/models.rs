@@ -12,9 +12,9 @@ use halfway_texture::{FarNormals, MapKind, SurfaceMap, TexelMeaning, Texture, Uv
 
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
-use crate::mesh::MeshEntry;
+use crate::mesh::{LoadedModel, MeshEntry};
 use crate::object::ObjectEntry;
-use halfway_lighting::{AlphaMode, LightComponent};
+use halfway_lighting::{AlphaMode, Faces, LightComponent};
 
 /// The mesh of an object.
 pub(crate) struct ObjectShape {
@@ -66,6 +66,7 @@ impl<'a> Shapes<'a> {
             // Written out for one object; comparing it with others would cost more than it saves.
             MeshEntry::Inline(_) => None,
             MeshEntry::Path(path) => Some(format!("path {}", path.display())),
+            MeshEntry::Model(loaded) => Some(format!("model {:?}", std::sync::Arc::as_ptr(&loaded.model))),
             surface => Some(format!("{surface:?}")),
         };
         let key = key.map(|key| format!("{key} {:?}", object.normals));
@@ -103,6 +104,14 @@ impl<'a> Shapes<'a> {
                     halfway_mesh::load(&path).map_err(|source| SceneError::Model { key: mesh_path(index), source })?;
                 return self.model(model, &path, object.normals, index);
             }
+            MeshEntry::Model(LoadedModel { path, model, material }) => {
+                let mut shape = self.model(Model::clone(model), path, object.normals, index)?;
+                for part in shape.parts.iter_mut().filter(|part| part.own.is_none()) {
+                    let faces = if part.mesh.is_open() { Faces::Both } else { Faces::default() };
+                    part.own = Some(ModelMaterial { material: *material, faces, alpha: AlphaMode::default() });
+                }
+                return Ok(shape);
+            }
             MeshEntry::UvSphere(sphere) => Mesh::from(*sphere),
             MeshEntry::Plane(plane) => Mesh::from(*plane),
             MeshEntry::Box(cuboid) => Mesh::from(*cuboid),
@@ -114,12 +123,12 @@ impl<'a> Shapes<'a> {
         };
         let (mesh, report) = mesh.with_normals(object.normals);
         self.warn_of_normals(&format!("objects[{index}]"), report);
-        let part =
-            ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None, maps: Vec::new() };
+        let (name, own, maps) = (String::new(), None, Vec::new());
+        let part = ShapePart { name, mesh, object_from_part: Mat4::IDENTITY, own, maps };
         Ok(ObjectShape { parts: vec![part], lights: Vec::new() })
     }
 
-    fn model(&mut self, model: Model, path: &Path, normals: Normals, index: usize) -> Result<ObjectShape, SceneError> {
+    fn model(&mut self, mut model: Model, path: &Path, normals: Normals, index: usize) -> Result<ObjectShape, SceneError> {
         let file = path.display();
         self.warnings.extend(model.warnings.iter().map(|warning| format!("{file}: {warning}")));
         if !model.cameras.is_empty() {
@@ -138,6 +147,9 @@ impl<'a> Shapes<'a> {
             Ok(ShapeLight { name: light.name.clone(), light: component, object_from_light })
         });
         let lights = lights.collect::<Result<Vec<_>, SceneError>>()?;
+        if normals == Normals::Auto {
+            model.make_auto_normals();
+        }
         let mut parts = Vec::with_capacity(model.parts.len());
         for part in model.parts {
             let (mesh, report) = part.mesh.with_normals(normals);

@@ -7,11 +7,11 @@ use std::rc::Rc;
 
 use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
-use bevy_math::{DMat3, DQuat, Mat4, Vec3};
+use bevy_math::{DAffine3, Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_asset::{Assets, Handle};
 use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, VertexColors, ViewTolerance};
-use halfway_lighting::{Camera, Projection, Samples};
+use halfway_lighting::{Camera, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
 use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
 
@@ -24,7 +24,6 @@ use crate::material::MaterialEntry;
 use crate::models::{ModelMap, ObjectShape, ShapePart, Shapes};
 use crate::object::ObjectEntry;
 use crate::placement::Placement;
-use crate::view::CameraEntry;
 use halfway_lighting::LightComponent;
 
 /// The entities of a scene that was spawned.
@@ -110,27 +109,30 @@ pub(crate) type Handles = HashMap<*const Vec3, Handle<Mesh>>;
 pub(crate) type TextureHandles = HashMap<*const [f32; 4], Handle<Texture>>;
 
 fn spawn_camera(scene: &SceneFile, objects: &[Object], world: &mut World) -> Entity {
-    let entry = scene.camera.unwrap_or_else(|| {
-        let [width, height] = scene.size;
-        framing_camera(outline(objects), width as f32 / height as f32)
-    });
+    let [width, height] = scene.size;
+    let aspect = width as f32 / height as f32;
+    let entry = scene.camera.unwrap_or_else(|| framing_camera(outline_of(objects), aspect));
     let camera = Camera {
-        projection: Projection::Perspective { fov_y: entry.fov_y_deg.to_radians(), near: entry.near },
+        projection: entry.projection(),
         background: LinearRgba::from_f32_array_no_alpha(scene.background),
         viewer: scene.viewer,
         samples: if scene.samples == 4 { Samples::Four } else { Samples::One },
         encoding: scene.output,
         intensity: scene.intensity,
     };
+    let (camera, place) = match entry.framing() {
+        Some(framing) => framing.camera(camera, outline_of(objects), aspect),
+        None => (camera, Transform::from_translation(entry.position.into()).with_rotation(entry.rotation())),
+    };
     let view = (scene.shading, scene.reflectance);
-    world.spawn((Name::new("camera"), camera, camera_transform(&entry), view)).id()
+    world.spawn((Name::new("camera"), camera, place, view)).id()
 }
 
 /// Above this number of vertices the corners of boxes stand for them.
 const FRAMED_VERTICES: usize = 1 << 20;
 
 /// The vertices of all parts in the world, or, where they are many, the corners of the boxes around the parts.
-fn outline(objects: &[Object]) -> Vec<Vec3> {
+fn outline_of(objects: &[Object]) -> Vec<Vec3> {
     let vertices: usize =
         objects.iter().flat_map(|(_, shape)| &shape.parts).map(|part| part.mesh.positions().len()).sum();
     let mut outline = Vec::new();
@@ -150,18 +152,64 @@ fn outline(objects: &[Object]) -> Vec<Vec3> {
     outline
 }
 
+/// The vertices of all meshes in a world, placed by their `Transform`s and those above them, or, where they are more than
+/// a million, the corners of the boxes around the meshes: what a [`Framing`](halfway_lighting::Framing) frames.
+///
+/// ```
+/// use bevy_app::App;
+/// use bevy_math::Vec3;
+/// use halfway_asset::Assets;
+/// use halfway_lighting::{Camera, Framing, View};
+/// use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin};
+/// use halfway_scene::outline;
+///
+/// let mut app = App::new();
+/// app.add_plugins(MeshPlugin);
+/// let mesh = app.world_mut().resource_mut::<Assets<Mesh>>().add(Cuboid::default());
+/// app.world_mut().spawn(Mesh3d(mesh));
+/// let framing = Framing::new(View::ISO, Vec3::Y);
+/// let camera = framing.camera(Camera::default(), outline(app.world_mut()), 16.0 / 9.0);
+/// app.world_mut().spawn(camera);
+/// ```
+pub fn outline(world: &mut World) -> Vec<Vec3> {
+    let mut objects = world.query::<(Entity, &Mesh3d)>();
+    let Some(meshes) = world.get_resource::<Assets<Mesh>>() else { return Vec::new() };
+    let placed: Vec<(&Mesh, DAffine3)> = objects
+        .iter(world)
+        .filter_map(|(entity, mesh)| Some((meshes.get(&mesh.0)?, world_from(entity, world))))
+        .collect();
+    let vertices: usize = placed.iter().map(|(mesh, _)| mesh.positions().len()).sum();
+    let mut outline = Vec::new();
+    for (mesh, world_from_mesh) in placed {
+        let to_world = |p: Vec3| world_from_mesh.transform_point3(p.as_dvec3()).as_vec3();
+        if vertices <= FRAMED_VERTICES {
+            outline.extend(mesh.positions().iter().copied().map(to_world));
+        } else {
+            outline.extend(corners(&mesh.bounds()).map(to_world));
+        }
+    }
+    outline.retain(|point| point.is_finite());
+    outline
+}
+
+/// The placement of an entity by its transform and those of the entities above.
+fn world_from(entity: Entity, world: &World) -> DAffine3 {
+    let (mut at, mut placement) = (Some(entity), DAffine3::IDENTITY);
+    while let Some(entity) = at {
+        if let Some(transform) = world.get::<Transform>(entity) {
+            placement = transform.compute_affine().as_daffine3() * placement;
+        }
+        at = world.get::<ChildOf>(entity).map(ChildOf::parent);
+    }
+    placement
+}
+
 fn corners(bounds: &Bounds) -> impl Iterator<Item = Vec3> {
     let Bounds { min, max } = *bounds;
     (0..8).map(move |i| {
         let pick = |axis: usize| if i & (1 << axis) == 0 { min[axis] } else { max[axis] };
         Vec3::new(pick(0), pick(1), pick(2))
     })
-}
-
-fn camera_transform(entry: &CameraEntry) -> Transform {
-    let rotation =
-        entry.axes().map_or(DQuat::IDENTITY, |[right, up, back]| DQuat::from_mat3(&DMat3::from_cols(right, up, back)));
-    Transform::from_translation(entry.position.into()).with_rotation(rotation.normalize().as_quat())
 }
 
 /// Spawns an object and gives the entity of its frame.

@@ -1,10 +1,10 @@
 //! The keys of a scene file that say how its picture is seen and written.
 
-use std::ops::Bound::Excluded;
+use std::ops::Bound::{Excluded, Included, Unbounded};
 
-use bevy_math::{DVec3, Vec3};
+use bevy_math::{DMat3, DQuat, DVec3, Quat, Vec3};
 use halfway_lighting::{
-    Choices, Encoding, Faces, Projection, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer,
+    Choices, Encoding, Faces, Framing, Projection, Range, Reflectance, Shading, Tolerance, VertexColors, View, Viewer,
 };
 
 use crate::check::{Check, KeyProblem, Limits, direction};
@@ -119,6 +119,40 @@ impl Keys for Tolerance {
     }
 }
 
+const AZIMUTH: Key = Key {
+    limits: Limits::Numbers(Range::FINITE),
+    ..Key::required("azimuth_deg", "The angle about the upright axis, from the front toward the right side, in degrees.")
+};
+const ELEVATION: Key = Key {
+    limits: Limits::Numbers(Range::new(Included(-90.0), Included(90.0), "degrees from -90 to 90")),
+    ..Key::required("elevation_deg", "The angle above the ground, in degrees from -90 to 90.")
+};
+
+impl Keys for View {
+    const NAME: &'static str = "View";
+    const MEANING: &'static str = "`view`: the direction from which all objects are seen, in place of `position` and \
+        `target`.";
+    const WORDS: Words<Self> = &named_words::<Self, { Self::CHOICES.len() }>();
+
+    fn blank() -> Self {
+        Self { azimuth: 0.0, elevation: 0.0 }
+    }
+
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
+        visitor.key(&AZIMUTH, Some(&self.azimuth.to_degrees()))?;
+        visitor.key(&ELEVATION, Some(&self.elevation.to_degrees()))
+    }
+
+    fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {
+        from.key(&AZIMUTH, |azimuth: f32| self.azimuth = azimuth.to_radians())?;
+        from.key(&ELEVATION, |elevation: f32| self.elevation = elevation.to_radians())
+    }
+}
+
+impl Object for View {
+    const EXAMPLES: &'static [&'static str] = &["{\"azimuth_deg\": 30, \"elevation_deg\": 20}"];
+}
+
 impl Object for Tolerance {
     const EXPECTED: &'static str = "an object such as {\"steps\": 1.0, \"pixels\": 0.5}";
 }
@@ -139,6 +173,19 @@ keys! {
             => Limits::Numbers(Range::new(Excluded(0.0), Excluded(180.0), "degrees above 0 and below 180")),
         /// Distance of the near plane, above 0. There is no far plane.
         near: f32 = Projection::default().near() => Limits::Numbers(Range::POSITIVE),
+        /// The direction from which all objects are seen, in place of `position`, `target` and `near`; `up` is then the
+        /// direction that is upright in the model, such as [0, 0, 1]. null: none.
+        view: Option<View> = None,
+        /// The share of the picture that the objects fill, above 0 and at most 1: the camera keeps its direction and
+        /// takes the distance. null: 0.9 where there is a `view`, else the distance is that of `position`.
+        fit: Option<f32> = None
+            => Limits::Numbers(Range::new(Excluded(0.0), Included(1.0), "a share above 0, at most 1")),
+        /// The magnification about the middle of the picture, above 0.
+        zoom: f32 = 1.0 => Limits::Numbers(Range::new(Excluded(0.0), Unbounded, "a finite number above 0")),
+        [not in the file]
+        /// Whether rays are parallel: an orthographic projection as high as what the perspective shows at `target`, or
+        /// as the objects need.
+        ortho: bool,
     }
 }
 
@@ -147,6 +194,9 @@ impl Object for CameraEntry {
 
     fn check_whole(&self) -> Check {
         direction("up", &self.up)?;
+        if self.view.is_some() {
+            return Ok(());
+        }
         if Vec3::from(self.position) == Vec3::from(self.target) {
             return Err(KeyProblem::new("target", "is where the camera stands; expected another point"));
         }
@@ -158,6 +208,35 @@ impl Object for CameraEntry {
 }
 
 impl CameraEntry {
+    /// How all objects are framed; `None` where the entry says where the camera stands.
+    pub(crate) fn framing(&self) -> Option<Framing> {
+        let up = Vec3::from(self.up);
+        let rotation = match self.view {
+            Some(view) => view.rotation(up),
+            None if self.fit.is_some() => self.rotation(),
+            None => return None,
+        };
+        Some(Framing { rotation, fit: self.fit.unwrap_or(Framing::FIT), zoom: self.zoom })
+    }
+
+    /// The projection of a camera that is not placed by a framing.
+    pub(crate) fn projection(&self) -> Projection {
+        let perspective = Projection::Perspective { fov_y: self.fov_y_deg.to_radians(), near: self.near };
+        let distance = Vec3::from(self.position).distance(Vec3::from(self.target));
+        if self.ortho {
+            return Projection::orthographic(perspective.height_at(distance) / self.zoom);
+        }
+        perspective.zoomed(self.zoom)
+    }
+
+    /// The camera's rotation where `position` and `target` give it.
+    pub(crate) fn rotation(&self) -> Quat {
+        let rotation = self
+            .axes()
+            .map_or(DQuat::IDENTITY, |[right, up, back]| DQuat::from_mat3(&DMat3::from_cols(right, up, back)));
+        rotation.normalize().as_quat()
+    }
+
     /// The camera's right, up and back in world space, of unit length and perpendicular; `None` where `position` and
     /// `target` or `up` do not say which they are.
     pub(crate) fn axes(&self) -> Option<[DVec3; 3]> {

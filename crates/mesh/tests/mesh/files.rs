@@ -161,7 +161,7 @@ fn files_outside_the_folder_need_an_option() {
         let refused = format!("{}: outside the folder of the model, not read", &reference[..reference.len().min(61)]);
         let is_refused = model.warnings.iter().any(|warning| warning.starts_with(&refused[..reference.len().min(50)]));
         assert_eq!(is_refused, !is_inside, "{reference}: {:?}", model.warnings);
-        let model = load_with(&path, LoadOptions { outside: true }, &mut |_| ControlFlow::Continue(())).unwrap();
+        let model = load_with(&path, LoadOptions { outside: true, ..LoadOptions::default() }, &mut |_| ControlFlow::Continue(())).unwrap();
         assert_eq!((model.parts[0].material, &model.warnings[..]), (Some(0), &[][..]), "{reference}");
     }
 }
