@@ -3,9 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use halfway::mesh::{
-    LoadError, LoadOptions, Model, Normals, Subdivision, Weld, load_with, write, write_quantised,
-};
+use halfway::mesh::{LoadError, LoadOptions, Model, Normals, Subdivision, Weld, load_with, write, write_quantised};
 
 use crate::failure::{Failure, STOPPED};
 use crate::look::parse_normals;

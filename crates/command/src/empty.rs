@@ -34,29 +34,35 @@ fn shows_only(picture: &Picture, camera: Camera) -> bool {
 fn reason(reason: Option<EmptyReason>) -> String {
     match reason {
         Some(EmptyReason::NoObject) => "the scene has no objects".to_owned(),
-        Some(EmptyReason::AllHidden(count)) => format!("all {count} objects are hidden"),
+        Some(EmptyReason::AllHidden(count)) => format!("{} hidden", are(count)),
         Some(EmptyReason::NoSize(count)) => {
-            format!("all {count} objects have no size; the scale of their transform, or their vertices, may be 0")
+            format!(
+                "{} without any size; the scale of its transform may be 0, or all its vertices in one place",
+                are(count)
+            )
         }
         Some(EmptyReason::AllBehind(count)) => {
-            format!("all {count} objects are behind the camera; --view front, say, turns it to them")
+            format!("{} behind the camera; --view front, say, turns the camera round", are(count))
         }
         Some(EmptyReason::AllOutside(count)) => {
-            format!("all {count} objects are outside of the camera's view; --fit 0.9 takes it to where it sees them")
+            format!("{} outside of the camera's view; --fit 0.9 takes it to where all can be seen", are(count))
         }
-        Some(EmptyReason::NoLight(count)) => {
-            format!("nothing lights the {count} objects in view; --lights studio lights them")
-        }
+        Some(EmptyReason::NoLight(_)) => "nothing lights what is in view; --lights studio does".to_owned(),
         Some(EmptyReason::CameraInside { entity }) => format!(
             "the camera is inside of {entity}, whose back faces are not drawn; --fit 0.9 takes it out, and --faces \
              both shows the inside"
         ),
-        Some(EmptyReason::FacesAway(count)) => format!(
-            "the {count} objects in view turn only faces to the camera that are not drawn; --faces both draws them"
-        ),
+        Some(EmptyReason::FacesAway(_)) => "all that is in view turns only faces to the camera that are not drawn; \
+                                             --faces both draws them"
+            .to_owned(),
         Some(other) => other.to_string(),
         None => "no triangle covers the middle of a pixel, or all is as dark as the background; --fit 0.9 frames the \
                  objects, and --lights studio lights them"
             .to_owned(),
     }
+}
+
+/// "the only object is", or how many are.
+fn are(count: usize) -> String {
+    if count == 1 { "the only object is".to_owned() } else { format!("all {count} objects are") }
 }

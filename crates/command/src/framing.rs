@@ -50,7 +50,8 @@ impl FramingArgs {
 }
 
 fn parse_up(text: &str) -> Result<Vec3, String> {
-    let (sign, axis) = text.strip_prefix('-').map_or((1.0, text.strip_prefix('+').unwrap_or(text)), |axis| (-1.0, axis));
+    let (sign, axis) =
+        text.strip_prefix('-').map_or((1.0, text.strip_prefix('+').unwrap_or(text)), |axis| (-1.0, axis));
     let axis = match axis {
         "x" | "X" => Vec3::X,
         "y" | "Y" => Vec3::Y,

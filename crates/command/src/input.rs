@@ -42,9 +42,7 @@ impl InputArgs {
 
     /// Refuses the format of a picture where none is written.
     pub(crate) fn without_picture(&self) -> Result<(), Failure> {
-        self.picture_format().map_or(Ok(()), |format| {
-            Err(format!("--format {format}: no picture is written; expected the format of a model").into())
-        })
+        self.reading.without_picture()
     }
 }
 
@@ -87,7 +85,16 @@ impl ReadingArgs {
 
     /// The ending of the picture's format.
     fn picture_format(&self) -> Option<&'static str> {
-        self.format.iter().find_map(|format| if let GivenFormat::Picture(ending) = format { Some(*ending) } else { None })
+        self.format
+            .iter()
+            .find_map(|format| if let GivenFormat::Picture(ending) = format { Some(*ending) } else { None })
+    }
+
+    /// Refuses the format of a picture where none is written.
+    pub(crate) fn without_picture(&self) -> Result<(), Failure> {
+        self.picture_format().map_or(Ok(()), |format| {
+            Err(format!("--format {format}: no picture is written; expected the format of a model").into())
+        })
     }
 
     /// Reads a model file or standard input.
@@ -96,7 +103,9 @@ impl ReadingArgs {
         let options = LoadOptions { outside, format: self.model_format(), limit };
         let model = if file == Path::new(STANDARD) {
             let Some(format) = options.format else {
-                return Err("standard input: the format is not known; expected --format smf, obj, glb, ply or stl".to_owned().into());
+                return Err("standard input: the format is not known; expected --format smf, obj, glb, ply or stl"
+                    .to_owned()
+                    .into());
             };
             load_stream(format, Path::new("standard input"), std::io::stdin().lock(), options)
         } else if options.format.is_none() && Format::from_path(file).is_none() {
@@ -121,6 +130,15 @@ impl SceneInput {
     /// Reads the scene file, or the model.
     pub(crate) fn open(file: &Path) -> Result<Self, Failure> {
         Self::open_all(&InputArgs { inputs: vec![file.to_owned()], reading: ReadingArgs::default() })
+    }
+
+    /// Reads a model of at most so many bytes.
+    pub(crate) fn open_model(file: &Path, limit: u64) -> Result<Self, Failure> {
+        let reading = ReadingArgs { limit: Some(limit), ..ReadingArgs::default() };
+        let model = Arc::new(reading.load(file)?);
+        let model = LoadedModel { path: file.to_owned(), model, material: unknown_material() };
+        let (base_dir, warned) = (PathBuf::new(), Cell::new(true));
+        Ok(Self { scene: scene_of(vec![model]), base_dir, file: file.to_owned(), warned })
     }
 
     fn open_all(args: &InputArgs) -> Result<Self, Failure> {

@@ -22,6 +22,7 @@ mod render;
 mod scenery;
 mod sheet;
 mod steps;
+mod thumbnail;
 mod tolerance;
 mod turntable;
 mod verify;
@@ -52,8 +53,10 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Draw a scene file (.json) or a model (.smf, .obj, .gltf, .glb, .ply, .stl) into a picture
+    /// Draw a scene file (.json) or models (.smf, .obj, .gltf, .glb, .ply, .stl) into a picture
     Render(render::RenderArgs),
+    /// Draw a small picture of a model for a file manager, on the CPU, within limits of time and memory
+    Thumbnail(thumbnail::ThumbnailArgs),
     /// Show a scene or a model in a window
     ///
     /// Left drag turns, right drag pans, the wheel zooms, Home resets; 1, 2, 3 choose flat, Gouraud and Phong shading,
@@ -70,7 +73,7 @@ enum Command {
     /// Pixels on edges, where rounding decides which side is visible, are judged separately. Exit code 4 if another
     /// differs by more than --max allows.
     Verify(verify::VerifyArgs),
-    /// Print the contents of a model, and its problems
+    /// Print the contents of models, and their problems
     Info(info::InfoArgs),
     /// Write a model in another format, mended, refined, simplified or with other normals; print what is lost
     ///
@@ -122,6 +125,7 @@ fn main() -> ExitCode {
     }
     let result = match command {
         Command::Render(args) => render::run(&args),
+        Command::Thumbnail(args) => thumbnail::run(&args),
         #[cfg(feature = "window")]
         Command::View(args) => view::run(&args),
         Command::Compare(args) => compare::run(&args),

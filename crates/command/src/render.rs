@@ -10,9 +10,9 @@ use halfway::reference::Mode;
 use halfway::render::Adapter;
 
 use crate::drawing::{DrawingArgs, SizeArgs};
+use crate::empty::warn_if_empty;
 use crate::failure::Failure;
 use crate::input::SceneInput;
-use crate::empty::warn_if_empty;
 use crate::progress::Progress;
 use crate::sheet::{Views, parse_views};
 use crate::turntable::Turntable;

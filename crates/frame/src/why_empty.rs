@@ -171,14 +171,7 @@ fn shows_a_face(mesh: &Mesh, transform: &GlobalTransform, shown: Faces, view: &V
     })
 }
 
-type Object<'a> = (
-    Entity,
-    &'a Mesh3d,
-    &'a GlobalTransform,
-    Option<&'a Material>,
-    Option<&'a Faces>,
-    Option<&'a Name>,
-);
+type Object<'a> = (Entity, &'a Mesh3d, &'a GlobalTransform, Option<&'a Material>, Option<&'a Faces>, Option<&'a Name>);
 
 type Objects<'w, 's> = Query<
     'w,

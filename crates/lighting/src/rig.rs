@@ -43,12 +43,7 @@ impl Choices for LightRig {
             name: "three-point",
             meaning: "A key light from the upper left, a fill light from the right, a back light from above.",
         },
-        Choice {
-            value: Self::Headlight,
-            key: "headlight",
-            name: "headlight",
-            meaning: "One light from the camera.",
-        },
+        Choice { value: Self::Headlight, key: "headlight", name: "headlight", meaning: "One light from the camera." },
     ];
 }
 

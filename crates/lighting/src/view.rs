@@ -326,9 +326,8 @@ mod framing {
                             let (camera, place) = framing.camera(camera, corners(min, max), aspect);
                             assert_eq!(camera.validate(), Ok(()));
                             let seen = corners(min, max).map(|p| in_picture(&camera, &place, aspect, p));
-                            let far = |axis: usize, sign: f32| {
-                                seen.clone().map(|p| p[axis] * sign).fold(f32::MIN, f32::max)
-                            };
+                            let far =
+                                |axis: usize, sign: f32| seen.clone().map(|p| p[axis] * sign).fold(f32::MIN, f32::max);
                             let sides = [far(0, 1.0), far(0, -1.0), far(1, 1.0), far(1, -1.0)];
                             let most = sides.into_iter().fold(f32::MIN, f32::max);
                             let error = (most - fit * zoom).abs();

@@ -13,7 +13,9 @@ use halfway_reference::OracleError;
 use halfway_render::{Headless, Picture, Pixels, RenderError, render_picture};
 use thiserror::Error;
 
-use crate::output::{AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, encode_picture, write_picture};
+use crate::output::{
+    AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, encode_picture, write_picture,
+};
 
 /// Makes the target a texture of `size` pixels. Part of `HalfwayPlugins::headless`.
 ///
@@ -262,11 +264,7 @@ pub fn record_with(
         return Err(RecordError::NoFrames(recording.frames.clone()));
     }
     let mut sink = Sink::new(recording)?;
-    let pixels = if recording.is_animation() {
-        Pixels::Byte
-    } else {
-        recording.format_of(0)?.pixels()
-    };
+    let pixels = if recording.is_animation() { Pixels::Byte } else { recording.format_of(0)?.pixels() };
     let [full, small] =
         [recording.size, (recording.size / SMALLER).max(UVec2::ONE)].map(|size| Headless { size, pixels });
     app.insert_resource(full);

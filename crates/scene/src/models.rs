@@ -69,7 +69,8 @@ impl<'a> Shapes<'a> {
             MeshEntry::Model(loaded) => Some(format!("model {:?}", std::sync::Arc::as_ptr(&loaded.model))),
             surface => Some(format!("{surface:?}")),
         };
-        let key = key.map(|key| format!("{key} {:?}", object.normals));
+        // A loaded model is asked for its open parts only where its faces are not chosen.
+        let key = key.map(|key| format!("{key} {:?} {}", object.normals, object.faces.is_none()));
         let shape = match key.as_ref().and_then(|key| self.loaded.get(key)) {
             Some(shape) => Rc::clone(shape),
             None => Rc::new(self.load(object, index)?),
@@ -107,7 +108,8 @@ impl<'a> Shapes<'a> {
             MeshEntry::Model(LoadedModel { path, model, material }) => {
                 let mut shape = self.model(Model::clone(model), path, object.normals, index)?;
                 for part in shape.parts.iter_mut().filter(|part| part.own.is_none()) {
-                    let faces = if part.mesh.is_open() { Faces::Both } else { Faces::default() };
+                    let is_open = object.faces.is_none() && part.mesh.is_open();
+                    let faces = if is_open { Faces::Both } else { Faces::default() };
                     part.own = Some(ModelMaterial { material: *material, faces, alpha: AlphaMode::default() });
                 }
                 return Ok(shape);
@@ -128,7 +130,13 @@ impl<'a> Shapes<'a> {
         Ok(ObjectShape { parts: vec![part], lights: Vec::new() })
     }
 
-    fn model(&mut self, mut model: Model, path: &Path, normals: Normals, index: usize) -> Result<ObjectShape, SceneError> {
+    fn model(
+        &mut self,
+        mut model: Model,
+        path: &Path,
+        normals: Normals,
+        index: usize,
+    ) -> Result<ObjectShape, SceneError> {
         let file = path.display();
         self.warnings.extend(model.warnings.iter().map(|warning| format!("{file}: {warning}")));
         if !model.cameras.is_empty() {

@@ -121,7 +121,10 @@ impl Keys for Tolerance {
 
 const AZIMUTH: Key = Key {
     limits: Limits::Numbers(Range::FINITE),
-    ..Key::required("azimuth_deg", "The angle about the upright axis, from the front toward the right side, in degrees.")
+    ..Key::required(
+        "azimuth_deg",
+        "The angle about the upright axis, from the front toward the right side, in degrees.",
+    )
 };
 const ELEVATION: Key = Key {
     limits: Limits::Numbers(Range::new(Included(-90.0), Included(90.0), "degrees from -90 to 90")),

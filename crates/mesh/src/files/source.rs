@@ -72,11 +72,7 @@ impl<'a> Source<'a> {
     }
 
     /// Reads a stream to its end, and wraps its bytes as the content of a file without a folder.
-    pub(super) fn from_stream(
-        path: &'a Path,
-        stream: impl io::Read,
-        options: LoadOptions,
-    ) -> Result<Self, LoadError> {
+    pub(super) fn from_stream(path: &'a Path, stream: impl io::Read, options: LoadOptions) -> Result<Self, LoadError> {
         let most = options.limit.unwrap_or(MOST_PIPED);
         let mut bytes = Vec::new();
         let read = stream.take(most.saturating_add(1)).read_to_end(&mut bytes);
@@ -300,9 +296,11 @@ mod tests {
             (".", false),
         ] {
             assert_eq!(stays_inside(Path::new(reference)), inside, "{reference:?}");
-            let around = ModelFolder::of_file(Path::new("model.obj"), LoadOptions { outside: true, ..LoadOptions::default() }, &|_| {
-                ControlFlow::Continue(())
-            });
+            let around = ModelFolder::of_file(
+                Path::new("model.obj"),
+                LoadOptions { outside: true, ..LoadOptions::default() },
+                &|_| ControlFlow::Continue(()),
+            );
             assert_eq!(around.find(reference), Some(Path::new("").join(reference)));
             assert_eq!(ModelFolder::nowhere().find(reference), None);
         }

@@ -328,6 +328,37 @@ fn contact_sheets_lay_frames_out_in_a_grid() {
 }
 
 #[test]
+fn captions_stand_below_their_frames() {
+    let mut sheet = ContactSheet::new(2, 40, Encoding::Srgb);
+    let white = Picture::Byte(RgbaImage::from_pixel(40, 20, Rgba([255; 4])));
+    sheet.push_with_caption(&white, "top");
+    sheet.push(&white);
+    let Picture::Byte(picture) = sheet.picture() else { panic!("bytes") };
+    // A line of 8 pixels with gaps of 4 above and below it, and gaps of 4 between and around the cells.
+    assert_eq!(picture.dimensions(), (92, 20 + 16 + 8));
+    let ink = |x: u32| {
+        (24..40)
+            .flat_map(|y| (x..x + 40).map(move |x| (x, y)))
+            .filter(|&(x, y)| picture.get_pixel(x, y)[0] > 200)
+            .count()
+    };
+    assert!(ink(4) > 20 && ink(48) == 0, "three letters below the first: {} {}", ink(4), ink(48));
+}
+
+#[test]
+fn pictures_are_written_to_streams() {
+    for format in
+        [PictureFormat::Png8, PictureFormat::Png16, PictureFormat::Jpeg, PictureFormat::WebP, PictureFormat::Exr]
+    {
+        let mut bytes = Vec::new();
+        encode_picture(&floats(), &mut bytes, Path::new("memory"), format, Encoding::Srgb).unwrap();
+        assert_eq!(image::load_from_memory(&bytes).unwrap().width(), 3, "{format:?}");
+    }
+    let error = encode_picture(&bytes(), &mut Vec::new(), Path::new("memory"), PictureFormat::Exr, Encoding::Srgb);
+    assert!(matches!(error, Err(OutputError::TooCoarse { .. })));
+}
+
+#[test]
 fn frames_are_scaled_down_in_linear_light() {
     let stripes = RgbaImage::from_fn(64, 64, |_, y| Rgba(if y % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] }));
     // Half the light is 0.5 in linear intensity: 188 of 255 in sRGB, 128 raw.
