@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
@@ -66,11 +67,13 @@ impl<'a> Shapes<'a> {
             // Written out for one object; comparing it with others would cost more than it saves.
             MeshEntry::Inline(_) => None,
             MeshEntry::Path(path) => Some(format!("path {}", path.display())),
-            MeshEntry::Model(loaded) => Some(format!("model {:?}", std::sync::Arc::as_ptr(&loaded.model))),
+            // Its open parts are looked for only where nobody chose its faces.
+            MeshEntry::Model(loaded) => {
+                Some(format!("model {:?} {}", Arc::as_ptr(&loaded.model), object.faces.is_none()))
+            }
             surface => Some(format!("{surface:?}")),
         };
-        // A loaded model is asked for its open parts only where its faces are not chosen.
-        let key = key.map(|key| format!("{key} {:?} {}", object.normals, object.faces.is_none()));
+        let key = key.map(|key| format!("{key} {:?}", object.normals));
         let shape = match key.as_ref().and_then(|key| self.loaded.get(key)) {
             Some(shape) => Rc::clone(shape),
             None => Rc::new(self.load(object, index)?),

@@ -200,7 +200,7 @@ fn an_empty_picture_says_why() {
     let folder = folder("empty");
     let leaf = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 3 2 1\n";
     fs::write(folder.join("leaf.obj"), leaf).expect("the folder can be written");
-    let camera = r#""camera": {"position": [0, 0, 3], "target": [0, 0, 9]}"#;
+    let camera = r#""camera": {"position": [0, 0, 9], "target": [0, 0, 20]}"#;
     let ball = r#""objects": [{"mesh": {"uv_sphere": {}}}]"#;
     for (name, text) in [
         ("behind.json", format!("{{{camera}, {ball}}}")),
@@ -251,7 +251,7 @@ fn thumbnails_are_small_pngs_within_limits() {
     let drawn = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png).expect("a PNG").into_rgb8();
     assert_eq!(drawn.dimensions(), (64, 64));
     covered(&drawn);
-    fs::write(folder.join("long.obj"), STEP.repeat(5000)).expect("the folder can be written");
+    fs::write(folder.join("long.obj"), STEP.repeat(9000)).expect("the folder can be written");
     for (arguments, expected) in [
         (&["long.obj", "--limit", "1"][..], "long.obj: the file is larger than 1000000 bytes"),
         (&["gone.obj"], "gone.obj: cannot be read"),

@@ -72,7 +72,7 @@ const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 
 fn files_say_whether_they_have_normals() {
     let faces = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n";
     for (between, given) in [("", false), ("s 1\n", true), ("g other\n", false)] {
-        let text = format!("{CUBE}{}{between}{}", &faces[..16], &faces[16..]);
+        let text = format!("{CUBE}{}{between}{}", &faces[..20], &faces[20..]);
         let model = load_bytes(Format::Obj, text.as_bytes()).unwrap();
         assert!(model.parts.iter().all(|part| part.mesh.has_given_normals() == given), "{between:?}");
     }
