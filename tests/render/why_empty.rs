@@ -20,7 +20,7 @@ fn app() -> (App, [Entity; 3]) {
 fn an_empty_picture_has_its_reason() {
     type Row = (fn(&mut World, [Entity; 3]), Option<EmptyReason>);
     let inside = EmptyReason::CameraInside { entity: "\"ball\"".into() };
-    let rows: [Row; 10] = [
+    let rows: [Row; 12] = [
         (|_, _| {}, None),
         (
             |world, [_, camera, _]| {
@@ -76,6 +76,22 @@ fn an_empty_picture_has_its_reason() {
                 world.entity_mut(camera).insert(Transform::default());
             },
             Some(inside),
+        ),
+        (
+            |world, [ball, ..]| {
+                world.entity_mut(ball).insert(Transform::from_scale(Vec3::ZERO));
+            },
+            Some(EmptyReason::NoSize(1)),
+        ),
+        (
+            |world, [ball, ..]| {
+                // It turns its back to the camera.
+                let leaf = Mesh::from(Plane { size: 1.0, divisions: 1 });
+                let leaf = world.resource_mut::<Assets<Mesh>>().add(leaf);
+                let turned = Transform::from_rotation(Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2));
+                world.entity_mut(ball).insert((Mesh3d(leaf), turned));
+            },
+            Some(EmptyReason::FacesAway(1)),
         ),
     ];
     for (row, (change, expected)) in rows.into_iter().enumerate() {

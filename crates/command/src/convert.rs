@@ -3,11 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use halfway::mesh::{
-    LoadError, LoadOptions, Model, NormalWeighting, Normals, Subdivision, Weld, load_with, write, write_quantised,
-};
+use halfway::mesh::{LoadError, LoadOptions, Model, Normals, Subdivision, Weld, load_with, write, write_quantised};
 
 use crate::failure::{Failure, STOPPED};
+use crate::look::parse_normals;
 use crate::progress::Progress;
 use crate::steps::Meshes;
 
@@ -38,7 +37,7 @@ pub(crate) struct ConvertArgs {
     #[arg(long, value_name = "LENGTH", value_parser = parse_length)]
     max_error: Option<f64>,
     /// Make new normals: one a face, a mean by these weights, or a mean that stops where faces differ by more degrees
-    #[arg(long, value_name = "keep|face|uniform|area|angle|max|creased=DEGREES", value_parser = parse_normals)]
+    #[arg(long, value_name = "auto|keep|face|uniform|area|angle|max|creased=DEGREES", value_parser = parse_normals)]
     normals: Option<Normals>,
     /// Write vertices as integers of 16 bits, which makes large meshes about 40 % smaller; .glb only
     #[arg(long)]
@@ -47,7 +46,7 @@ pub(crate) struct ConvertArgs {
 
 pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     let progress = Progress::for_bytes();
-    let options = LoadOptions { outside: args.outside };
+    let options = LoadOptions { outside: args.outside, ..LoadOptions::default() };
     let mut model =
         load_with(&args.input, options, &mut |at| progress.bytes(at.done, at.of)).map_err(|error| match error {
             LoadError::Stopped { .. } => Failure::new(STOPPED, error),
@@ -123,22 +122,4 @@ fn parse_subdivision(text: &str) -> Result<(Subdivision, u32), String> {
         _ => return Err(expected()),
     };
     Ok((scheme, times.parse().map_err(|_| expected())?))
-}
-
-fn parse_normals(text: &str) -> Result<Normals, String> {
-    Ok(match text {
-        "keep" => Normals::Keep,
-        "face" => Normals::Face,
-        "uniform" => Normals::Weighted(NormalWeighting::Uniform),
-        "area" => Normals::Weighted(NormalWeighting::Area),
-        "angle" => Normals::Weighted(NormalWeighting::Angle),
-        "max" => Normals::Weighted(NormalWeighting::Max),
-        _ => {
-            let degrees = text.strip_prefix("creased=").and_then(|degrees| degrees.parse().ok());
-            let degrees: f32 = degrees.filter(|degrees| (0.0..=180.0).contains(degrees)).ok_or(
-                "expected keep, face, uniform, area, angle, max or creased=DEGREES with an angle from 0 to 180",
-            )?;
-            Normals::Creased { angle: degrees.to_radians(), weighting: NormalWeighting::default() }
-        }
-    })
 }

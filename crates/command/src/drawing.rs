@@ -1,7 +1,5 @@
 //! The options for drawing a scene.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use halfway::lighting::Choices;
@@ -10,21 +8,27 @@ use halfway::record::parse_size;
 
 use crate::adapters::AdapterArgs;
 use crate::edges::EdgeArgs;
+use crate::framing::FramingArgs;
+use crate::input::InputArgs;
+use crate::look::LookArgs;
 use crate::tolerance::ToleranceArgs;
 
 /// How the scene is drawn; options override the scene file.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct DrawingArgs {
-    /// A scene file (.json) or a model (.smf, .obj, .gltf, .glb, .ply, .stl)
-    #[arg(value_name = "SCENE|MODEL")]
-    pub(crate) input: PathBuf,
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) framing: FramingArgs,
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
     /// How often surfaces are shaded [default: the scene's; phong for a model]
     #[arg(long, value_parser = shadings())]
     shading: Option<GivenShading>,
     /// How surfaces reflect [default: the scene's; blinn-phong for a model]
     #[arg(long, value_parser = reflectances())]
     pub(crate) reflectance: Option<Reflectance>,
-    /// Coverage samples a pixel: 1, or 4 for smooth edges [default: the scene's; 1 for a model]
+    /// Coverage samples a pixel: 1, or 4 for smooth edges [default: the scene's; 4 for a model]
     #[arg(long, value_parser = samples())]
     pub(crate) samples: Option<u32>,
     /// The treatment of intensities above 1: clamp, renormalise, reinhard or aces; renormalise with the share of the
@@ -74,14 +78,14 @@ pub(crate) struct SizeArgs {
 }
 
 /// The choices of a type as values of an option, with their meanings as help.
-fn values<T: Choices>() -> impl Iterator<Item = PossibleValue> {
+pub(crate) fn values<T: Choices>() -> impl Iterator<Item = PossibleValue> {
     T::CHOICES.iter().map(|choice| {
         let meaning = choice.meaning.trim_end_matches('.');
         PossibleValue::new(choice.key.replace('_', "-")).help(meaning)
     })
 }
 
-fn choice<T: Choices>(text: &str) -> Option<T> {
+pub(crate) fn choice<T: Choices>(text: &str) -> Option<T> {
     T::from_key(&text.replace('-', "_"))
 }
 

@@ -1,31 +1,97 @@
 //! `halfway info`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use clap::Args;
-use halfway::mesh::{AlphaMode, LodGroup, Mesh, Model, SourceLightKind, SourceMaterial, SourceProjection};
+use halfway::mesh::{AlphaMode, LodGroup, Mesh, Model, Normals, SourceLightKind, SourceMaterial, SourceProjection};
 
 use crate::failure::Failure;
+use crate::input::ReadingArgs;
 
 #[derive(Args, Debug)]
 pub(crate) struct InfoArgs {
-    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl)
-    model: PathBuf,
+    /// Models (.smf, .obj, .gltf, .glb, .ply, .stl); - reads one from standard input, of --format
+    #[arg(value_name = "MODEL", required = true)]
+    models: Vec<PathBuf>,
+    #[command(flatten)]
+    reading: ReadingArgs,
     /// Make levels of detail, too, and print how many triangles they have within some errors
-    #[arg(long)]
+    #[arg(long, conflicts_with = "table")]
     levels: bool,
+    /// Print a table with a line for each model
+    #[arg(long)]
+    table: bool,
 }
 
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
-    let model = halfway::mesh::load(&args.model)?;
-    println!("{}", args.model.display());
-    print_shape(&model);
+    args.reading.without_picture()?;
+    if args.table {
+        println!("{}", TITLES.join("\t"));
+    }
+    let mut refused = Vec::new();
+    for (i, file) in args.models.iter().enumerate() {
+        match args.reading.load(file) {
+            Ok(model) if args.table => println!("{}", row(file, &model).join("\t")),
+            Ok(model) => {
+                if i > 0 {
+                    println!();
+                }
+                print_model(file, &model, args.levels);
+            }
+            Err(failure) => refused.push(failure),
+        }
+    }
+    // The last one is printed by whoever gets it.
+    let last = refused.pop();
+    for error in refused.into_iter().filter_map(|failure| failure.error) {
+        eprintln!("error: {error}");
+    }
+    last.map_or(Ok(()), Err)
+}
+
+const TITLES: [&str; 9] =
+    ["file", "triangles", "vertices", "parts", "size x", "size y", "size z", "open parts", "normals"];
+
+/// The columns of a model.
+fn row(file: &Path, model: &Model) -> [String; 9] {
+    let vertices: usize = model.parts.iter().map(|part| part.mesh.positions().len()).sum();
+    let size = model.bounds().map_or(Default::default(), |bounds| bounds.max - bounds.min);
+    let open = model.parts.iter().filter(|part| part.mesh.is_open()).count();
+    let mut kinds: Vec<String> = model.parts.iter().map(|part| normals(&part.mesh)).collect();
+    kinds.sort();
+    kinds.dedup();
+    [
+        file.display().to_string(),
+        model.triangle_count().to_string(),
+        vertices.to_string(),
+        model.parts.len().to_string(),
+        size.x.to_string(),
+        size.y.to_string(),
+        size.z.to_string(),
+        open.to_string(),
+        kinds.join("; "),
+    ]
+}
+
+/// The normals that `--normals auto` gives a mesh.
+fn normals(mesh: &Mesh) -> String {
+    match mesh.suited_normals() {
+        _ if mesh.has_given_normals() => "the file's".to_owned(),
+        Normals::Creased { angle, .. } => format!("a made part's, creased at {:.1}°", angle.to_degrees()),
+        _ => "smooth".to_owned(),
+    }
+}
+
+fn print_model(file: &Path, model: &Model, levels: bool) {
+    println!("{}", file.display());
+    print_shape(model);
     for part in &model.parts {
         let material = part.material.and_then(|i| model.materials.get(i)).map_or("none", SourceMaterial::name);
         println!("part       \"{}\": {}; material {material}", part.name, attributes(&part.mesh));
         part.mesh.report().to_string().lines().for_each(|line| println!("  {line}"));
-        if args.levels {
+        println!("  normals    {}", normals(&part.mesh));
+        if levels {
             print_levels(&part.mesh);
         }
     }
@@ -44,7 +110,6 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     for warning in &model.warnings {
         println!("warning    {warning}");
     }
-    Ok(())
 }
 
 fn attributes(mesh: &Mesh) -> String {

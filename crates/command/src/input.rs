@@ -1,42 +1,172 @@
-//! The scene of the command line.
+//! The scene or the models of the command line.
 
 use std::cell::Cell;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use halfway::lighting::{LightRig, View};
+use halfway::mesh::{Format, LoadOptions, Model, Normals, load_stream, load_with};
 use halfway::prelude::*;
-use halfway::scene::{SceneError, SceneFile, Spawned, spawn, spawn_seen_from};
+use halfway::scene::{
+    CameraEntry, LoadedModel, MeshEntry, ObjectEntry, SceneError, SceneFile, Spawned, rig_lights, spawn,
+    spawn_seen_from,
+};
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
+use crate::look::unknown_material;
 
 const EXPECTED: &str =
     "neither a scene that is known by a name nor a file that ends in .json, .smf, .obj, .gltf, .glb, .ply or .stl";
+/// The name of standard input and standard output.
+pub(crate) const STANDARD: &str = "-";
+
+/// A scene file or models.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct InputArgs {
+    /// A scene file (.json), or models (.smf, .obj, .gltf, .glb, .ply, .stl): all in one picture, each at its own
+    /// coordinates; - reads a model from standard input, of --format
+    #[arg(value_name = "SCENE|MODELS", required = true)]
+    inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    reading: ReadingArgs,
+}
+
+impl InputArgs {
+    /// The ending of the picture's format.
+    pub(crate) fn picture_format(&self) -> Option<&'static str> {
+        self.reading.picture_format()
+    }
+
+    /// Refuses the format of a picture where none is written.
+    pub(crate) fn without_picture(&self) -> Result<(), Failure> {
+        self.reading.without_picture()
+    }
+}
+
+/// How model files are read.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct ReadingArgs {
+    /// The format of the models, whatever their names end in, or of the picture, or both, such as stl,png
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',', value_parser = formats())]
+    format: Vec<GivenFormat>,
+    /// Read files that the models refer to outside their own folders, too
+    #[arg(long)]
+    outside: bool,
+    /// The most bytes of a file [default: any number, and 1 GiB through a pipe]
+    #[arg(skip)]
+    pub(crate) limit: Option<u64>,
+}
+
+/// A value of `--format`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum GivenFormat {
+    Model(Format),
+    /// By the ending of its files.
+    Picture(&'static str),
+}
+
+const PICTURES: [&str; 4] = ["png", "jpeg", "webp", "exr"];
+
+fn formats() -> impl TypedValueParser<Value = GivenFormat> {
+    let models = Format::ALL.map(|format| (format.extension(), GivenFormat::Model(format)));
+    let all: Vec<_> = models.into_iter().chain(PICTURES.map(|ending| (ending, GivenFormat::Picture(ending)))).collect();
+    PossibleValuesParser::new(all.iter().map(|(ending, _)| *ending).collect::<Vec<_>>()).try_map(move |text| {
+        all.iter().find(|(ending, _)| *ending == text).map(|(_, format)| *format).ok_or("not one of the values")
+    })
+}
+
+impl ReadingArgs {
+    fn model_format(&self) -> Option<Format> {
+        self.format.iter().find_map(|format| if let GivenFormat::Model(format) = format { Some(*format) } else { None })
+    }
+
+    /// The ending of the picture's format.
+    fn picture_format(&self) -> Option<&'static str> {
+        self.format
+            .iter()
+            .find_map(|format| if let GivenFormat::Picture(ending) = format { Some(*ending) } else { None })
+    }
+
+    /// Refuses the format of a picture where none is written.
+    pub(crate) fn without_picture(&self) -> Result<(), Failure> {
+        self.picture_format().map_or(Ok(()), |format| {
+            Err(format!("--format {format}: no picture is written; expected the format of a model").into())
+        })
+    }
+
+    /// Reads a model file or standard input.
+    pub(crate) fn load(&self, file: &Path) -> Result<Model, Failure> {
+        let Self { outside, limit, .. } = *self;
+        let options = LoadOptions { outside, format: self.model_format(), limit };
+        let model = if file == Path::new(STANDARD) {
+            let Some(format) = options.format else {
+                return Err("standard input: the format is not known; expected --format smf, obj, glb, ply or stl"
+                    .to_owned()
+                    .into());
+            };
+            load_stream(format, Path::new("standard input"), std::io::stdin().lock(), options)
+        } else if options.format.is_none() && Format::from_path(file).is_none() {
+            return Err(format!("{}: {EXPECTED}", file.display()).into());
+        } else {
+            load_with(file, options, &mut |_| ControlFlow::Continue(()))
+        };
+        Ok(model?)
+    }
+}
 
 /// A scene with the folder of its relative paths.
 pub(crate) struct SceneInput {
     pub(crate) scene: SceneFile,
     base_dir: PathBuf,
-    /// The file as it was named, and whether it is a scene file.
+    /// The first file as it was named.
     file: PathBuf,
-    is_scene: bool,
     /// The camera that the command line asks for.
     camera: Option<String>,
     warned: Cell<bool>,
 }
 
 impl SceneInput {
-    /// Reads the scene file, or wraps the model in one.
+    /// Reads the scene file, or the model.
     pub(crate) fn open(file: &Path) -> Result<Self, Failure> {
-        let is_scene = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
-        let scene = if is_scene { SceneFile::read(file)? } else { SceneFile::for_model(file.to_owned()) };
-        let folder = file.parent().filter(|_| is_scene).unwrap_or(Path::new(""));
+        Self::open_all(&InputArgs { inputs: vec![file.to_owned()], reading: ReadingArgs::default() })
+    }
+
+    /// Reads a model of at most so many bytes.
+    pub(crate) fn open_model(file: &Path, limit: u64) -> Result<Self, Failure> {
+        let reading = ReadingArgs { limit: Some(limit), ..ReadingArgs::default() };
+        let model = Arc::new(reading.load(file)?);
+        let model = LoadedModel { path: file.to_owned(), model, material: unknown_material() };
+        let (base_dir, warned) = (PathBuf::new(), Cell::new(true));
+        Ok(Self { scene: scene_of(vec![model]), base_dir, file: file.to_owned(), camera: None, warned })
+    }
+
+    fn open_all(args: &InputArgs) -> Result<Self, Failure> {
+        let is_scene = |file: &PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+        let file = args.inputs.first().cloned().unwrap_or_default();
         let warned = Cell::new(false);
-        Ok(Self { scene, base_dir: folder.to_owned(), file: file.to_owned(), is_scene, camera: None, warned })
+        if args.inputs.len() == 1 && is_scene(&file) {
+            let base_dir = file.parent().unwrap_or(Path::new("")).to_owned();
+            return Ok(Self { scene: SceneFile::read(&file)?, base_dir, file, camera: None, warned });
+        }
+        if let Some(scene) = args.inputs.iter().find(|file| is_scene(file)) {
+            let file = scene.display();
+            return Err(format!("{file}: a scene file is drawn alone; expected models beside each other").into());
+        }
+        let mut models = Vec::with_capacity(args.inputs.len());
+        for file in &args.inputs {
+            let model = Arc::new(args.reading.load(file)?);
+            models.push(LoadedModel { path: file.clone(), model, material: unknown_material() });
+        }
+        Ok(Self { scene: scene_of(models), base_dir: PathBuf::new(), file, camera: None, warned })
     }
 
     /// Reads the scene, with the options of the command line.
     pub(crate) fn read(args: &DrawingArgs) -> Result<Self, Failure> {
-        let mut input = Self::open(&args.input)?;
+        let mut input = Self::open_all(&args.input)?;
         input.camera.clone_from(&args.camera);
         let scene = &mut input.scene;
         if let Some(shading) = args.shading() {
@@ -58,13 +188,18 @@ impl SceneInput {
             scene.edges = Some(edges.into());
             scene.objects.iter_mut().for_each(|object| object.edges = None);
         }
+        let is_of_models = scene.objects.iter().all(|object| matches!(object.mesh, MeshEntry::Model(_)));
         if let Some(samples) = args.samples {
             scene.samples = samples;
             scene.all_cameras_mut().for_each(|camera| camera.samples = None);
+        } else if is_of_models && !scene.objects.is_empty() {
+            scene.samples = 4;
         }
         if let Some(intensity) = args.intensity {
             scene.intensity = intensity;
         }
+        args.look.apply(scene);
+        args.framing.apply(scene);
         Ok(input)
     }
 
@@ -95,20 +230,30 @@ impl SceneInput {
         Ok(spawned)
     }
 
-    /// The failure for an error: a model's own error; in a scene file it is one of that file's keys.
+    /// The failure for an error in one of the scene's keys.
     fn failure(&self, error: SceneError) -> Failure {
-        match error {
-            SceneError::Model { source, .. } if !self.is_scene => source.into(),
-            // A model's name makes only this key.
-            SceneError::Value { key, .. } if !self.is_scene && key == "objects[0].mesh.path" => {
-                format!("{}: {EXPECTED}", self.file.display()).into()
-            }
-            error @ SceneError::NoCamera { .. } => format!("--camera: {}: {error}", self.file.display()).into(),
-            error => {
-                let text = error.to_string();
-                let text = text.strip_prefix("scene: ").unwrap_or(&text);
-                format!("{}: {text}", self.file.display()).into()
-            }
+        if let SceneError::NoCamera { .. } = error {
+            return format!("--camera: {}: {error}", self.file.display()).into();
         }
+        let text = error.to_string();
+        let text = text.strip_prefix("scene: ").unwrap_or(&text);
+        format!("{}: {text}", self.file.display()).into()
+    }
+}
+
+/// Charcoal, before which light and dark models stand out.
+const BACKGROUND: [f32; 3] = [0.024, 0.027, 0.032];
+
+/// Models that nothing is known of, shown to please: framed from the front, a little from the right and from above, lit
+/// by their own lights or by the studio's.
+fn scene_of(models: Vec<LoadedModel>) -> SceneFile {
+    let has_lights = models.iter().any(|loaded| !loaded.model.lights.is_empty());
+    let object = |loaded| ObjectEntry { normals: Normals::Auto, ..ObjectEntry::new(MeshEntry::Model(loaded)) };
+    SceneFile {
+        camera: Some(CameraEntry { view: Some(View::default()), fov_y_deg: 30.0, ..CameraEntry::default() }),
+        background: BACKGROUND,
+        lights: (!has_lights).then(|| rig_lights(LightRig::Studio)),
+        objects: models.into_iter().map(object).collect(),
+        ..SceneFile::default()
     }
 }

@@ -9,16 +9,21 @@ mod compare;
 mod convert;
 mod drawing;
 mod edges;
+mod empty;
 mod failure;
 mod figures;
+mod framing;
 mod info;
 mod input;
+mod look;
 mod picture;
 mod progress;
 mod render;
 #[cfg(feature = "measure")]
 mod scenery;
+mod sheet;
 mod steps;
+mod thumbnail;
 mod tolerance;
 mod turntable;
 mod verify;
@@ -49,8 +54,10 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Draw a scene file (.json) or a model (.smf, .obj, .gltf, .glb, .ply, .stl) into a picture
+    /// Draw a scene file (.json) or models (.smf, .obj, .gltf, .glb, .ply, .stl) into a picture
     Render(render::RenderArgs),
+    /// Draw a small picture of a model for a file manager, on the CPU, within limits of time and memory
+    Thumbnail(thumbnail::ThumbnailArgs),
     /// Show a scene or a model in a window
     ///
     /// Left drag turns, right drag pans, the wheel zooms, Home resets; 1, 2, 3 choose flat, Gouraud and Phong shading,
@@ -67,7 +74,7 @@ enum Command {
     /// Pixels on edges, where rounding decides which side is visible, are judged separately. Exit code 4 if another
     /// differs by more than --max allows.
     Verify(verify::VerifyArgs),
-    /// Print the contents of a model, and its problems
+    /// Print the contents of models, and their problems
     Info(info::InfoArgs),
     /// Write a model in another format, mended, refined, simplified or with other normals; print what is lost
     ///
@@ -102,22 +109,24 @@ fn restore_sigpipe() {
 }
 
 fn main() -> ExitCode {
-    // The commands print errors of frames themselves.
-    let filter = "warn,wgpu_hal=off,halfway_render::errors=off";
-    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(filter))
-        .format(|line, record| writeln!(line, "{}: {}", record.level().as_str().to_lowercase(), record.args()))
-        .init();
     let command = Cli::parse().command;
     // A window's connection to its display must not end the process.
     #[cfg(feature = "window")]
     let has_window = matches!(command, Command::View(_));
     #[cfg(not(feature = "window"))]
     let has_window = false;
+    // The commands print errors of frames themselves, and why a picture is empty.
+    let empty = if has_window { "" } else { ",halfway_render::empty=off" };
+    let filter = format!("warn,wgpu_hal=off,halfway_render::errors=off{empty}");
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(filter))
+        .format(|line, record| writeln!(line, "{}: {}", record.level().as_str().to_lowercase(), record.args()))
+        .init();
     if !has_window {
         restore_sigpipe();
     }
     let result = match command {
         Command::Render(args) => render::run(&args),
+        Command::Thumbnail(args) => thumbnail::run(&args),
         #[cfg(feature = "window")]
         Command::View(args) => view::run(&args),
         Command::Compare(args) => compare::run(&args),

@@ -6,22 +6,25 @@ use std::path::PathBuf;
 use clap::Args;
 use halfway::lighting::Choices;
 use halfway::prelude::*;
-use halfway::record::{FrameToDraw, Recording, ReferenceDrawing, record_with};
+use halfway::record::{FrameToDraw, RecordError, Recording, ReferenceDrawing, record_with};
 use halfway::reference::Mode;
 use halfway::render::Adapter;
 use halfway::scene::SceneTime;
 
 use crate::drawing::{DrawingArgs, SizeArgs};
+use crate::empty::warn_if_empty;
 use crate::failure::Failure;
 use crate::input::SceneInput;
 use crate::progress::Progress;
+use crate::sheet::{Views, parse_views};
 use crate::turntable::Turntable;
 
 #[derive(Args, Debug)]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     drawing: DrawingArgs,
-    /// The picture: .png or .exr; of several frames an animated PNG, or one file a frame if the name has a {}
+    /// The picture: .png, .jpg, .webp or .exr; of several frames an animated PNG, or one file a frame if the name has a
+    /// {}; - writes to standard output, a PNG unless --format says otherwise
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
@@ -38,6 +41,10 @@ pub(crate) struct RenderArgs {
     /// Draw the scene's animation at T seconds
     #[arg(long, value_name = "T", value_parser = parse_time, conflicts_with_all = ["frames", "turntable"])]
     time: Option<f64>,
+    /// Several views on one sheet with captions, each of --size, such as front,right,top,iso; with --ortho at one scale
+    #[arg(long, value_name = "LIST", value_parser = parse_views, allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["view", "frames", "turntable", "time", "also", "contact_sheet"])]
+    views: Option<Views>,
     /// Bits a channel: 8 or 16 in a PNG, 32 in an EXR [default: 8; 32]
     #[arg(long)]
     bits: Option<u32>,
@@ -95,26 +102,38 @@ impl Drawer {
         let set_time = |app: &mut App, frame: FrameToDraw| {
             app.insert_resource(SceneTime::At(time + f64::from(frame.number) / f64::from(recording.rate)));
         };
-        match self {
-            Self::Adapter(_) => {
-                let progress = Progress::for_frames(frames);
-                let draw = |app: &mut App, frame: FrameToDraw| {
-                    set_time(app, frame);
-                    Ok(render_picture(app)?)
-                };
-                record_with(app, recording, draw, |done, _| progress.frame(done))?;
+        let progress = match self {
+            Self::Adapter(_) => Progress::for_frames(frames),
+            Self::Reference(_) => Progress::for_tiles(frames),
+        };
+        let mut is_first = true;
+        let draw = |app: &mut App, frame: FrameToDraw| {
+            set_time(app, frame);
+            let picture = self.picture(app, frame, frame.number.saturating_sub(recording.frames.start), &progress)?;
+            if std::mem::take(&mut is_first) {
+                warn_if_empty(app, &picture);
             }
-            Self::Reference(drawing) => {
-                let progress = Progress::for_tiles(frames);
-                let draw = |app: &mut App, frame: FrameToDraw| {
-                    set_time(app, frame);
-                    let index = frame.number - recording.frames.start;
-                    drawing.picture(app, frame, &|done, of| progress.tile(index, done, of))
-                };
-                record_with(app, recording, draw, |_, _| progress.going_on())?;
-            }
-        }
+            Ok(picture)
+        };
+        record_with(app, recording, draw, |done, _| match self {
+            Self::Adapter(_) => progress.frame(done),
+            Self::Reference(_) => progress.going_on(),
+        })?;
         Ok(())
+    }
+
+    /// One picture, the `index`th that progress is reported of.
+    fn picture(
+        &self,
+        app: &mut App,
+        frame: FrameToDraw,
+        index: u32,
+        progress: &Progress,
+    ) -> Result<Picture, RecordError> {
+        match self {
+            Self::Adapter(_) => Ok(render_picture(app)?),
+            Self::Reference(drawing) => drawing.picture(app, frame, &|done, of| progress.tile(index, done, of)),
+        }
     }
 }
 
@@ -131,6 +150,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         rate: args.fps.unwrap_or(30),
         size,
         bits: args.bits,
+        format: args.drawing.input.picture_format().map(str::to_owned),
         contact_sheet: args.contact_sheet.clone(),
         also: args.also.clone(),
         ..Recording::new(args.output.clone())
@@ -138,10 +158,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let drawer = Drawer::choose(args)?;
     let mut app = drawer.app(size);
     let spawned = input.spawn(&mut app)?;
+    if let Some(views) = &args.views {
+        return draw_sheet(args, views, &recording, &drawer, (&mut app, spawned.camera));
+    }
     if let Some(frames) = args.turntable {
         Turntable::turn(&mut app, spawned.camera, std::f32::consts::TAU / frames as f32);
     } else if !spawned.is_animated {
-        let still = |option: &str| format!("{option}: {} has no animation", args.drawing.input.display());
+        let still = |option: &str| format!("{option}: {} has no animation", input.name());
         if args.frames.is_some() {
             return Err(format!("{}; --turntable N turns the camera around it", still("--frames")).into());
         }
@@ -154,6 +177,38 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
 
 /// The most frames.
 const MOST_FRAMES: u32 = 100_000;
+
+/// Draws several views on one sheet.
+fn draw_sheet(
+    args: &RenderArgs,
+    views: &Views,
+    recording: &Recording,
+    drawer: &Drawer,
+    (app, camera): (&mut App, Entity),
+) -> Result<(), Failure> {
+    let (size, pixels) = (recording.size, Pixels::Byte);
+    if recording.format_of(0)?.pixels() != pixels {
+        let file = recording.path.display();
+        return Err(format!("{file}: a sheet of views has 8 bits a channel; expected a PNG of 8 bits, say").into());
+    }
+    app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
+    app.insert_resource(Headless { size, pixels });
+    app.finish();
+    app.cleanup();
+    let projection = app.world().get::<Camera>(camera).map(|camera| camera.projection).unwrap_or_default();
+    let is_parallel = matches!(projection, Projection::Orthographic { .. });
+    let projection = if is_parallel { Projection::default() } else { projection };
+    let progress = Progress::for_tiles(1);
+    let draw = |app: &mut App, number: u32| {
+        let picture = drawer.picture(app, FrameToDraw { number, size, pixels }, 0, &progress)?;
+        warn_if_empty(app, &picture);
+        Ok(picture)
+    };
+    let framing = (&args.drawing.framing, projection);
+    let (sheet, encoding) = views.draw(framing, (app, camera), size, draw)?;
+    drop(progress);
+    Ok(recording.write(0, &sheet, encoding)?)
+}
 
 fn parse_frames(text: &str) -> Result<Range<u32>, String> {
     text.split_once("..")

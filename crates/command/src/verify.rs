@@ -36,6 +36,7 @@ pub(crate) struct VerifyArgs {
 }
 
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
+    args.drawing.input.without_picture()?;
     let mut input = SceneInput::read(&args.drawing)?;
     if let Some(file) = &args.picture {
         return judge_picture(args, input, file);

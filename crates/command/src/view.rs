@@ -14,6 +14,7 @@ pub(crate) struct ViewArgs {
 }
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
+    args.drawing.input.without_picture()?;
     let input = SceneInput::read(&args.drawing)?;
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name()));

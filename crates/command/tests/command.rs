@@ -7,6 +7,7 @@ mod command {
     mod bench;
     #[cfg(feature = "measure")]
     mod chart;
+    mod looks;
     mod models;
     mod pictures;
     mod reference;

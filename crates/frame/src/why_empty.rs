@@ -3,7 +3,7 @@
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemState;
-use bevy_math::Vec3;
+use bevy_math::{DVec3, Vec3};
 use bevy_transform::components::GlobalTransform;
 use halfway_asset::Assets;
 use halfway_lighting::lights::LightQueries;
@@ -43,6 +43,15 @@ pub enum EmptyReason {
          check `Camera::projection`"
     )]
     AllOutside(usize),
+    /// All objects are points: their meshes or their transforms have no size.
+    #[error("all {0} objects have no size: check the scale of their `Transform` and the positions of their meshes")]
+    NoSize(usize),
+    /// The objects in view turn only faces to the camera that are not drawn.
+    #[error(
+        "the {0} objects in view turn only faces to the camera that are not drawn: insert `Faces::Both`, or move the \
+         camera to their other side"
+    )]
+    FacesAway(usize),
     /// Nothing lights the objects, and none shines by itself.
     #[error(
         "the {0} visible objects are black, since nothing lights them: spawn a light with `(PointLight::white(), \
@@ -60,7 +69,8 @@ pub enum EmptyReason {
 }
 
 /// Why the newest picture shows nothing, in the order in which the reasons are looked for: no camera, no object, no mesh,
-/// all hidden, all behind the camera, all outside of its view, no light, the camera inside of the only object in view.
+/// all hidden, all without a size, all behind the camera, all outside of its view, no light, the camera inside of the only
+/// object in view, all faces in view away from it.
 /// `None` where none of these holds: the picture then shows something, or holds only what its objects' materials and
 /// masks make of them.
 ///
@@ -109,6 +119,9 @@ pub fn why_empty(world: &mut World) -> Option<EmptyReason> {
         (center, bounds.radius() * stretch)
     });
     let in_eye: Vec<(Vec3, f32)> = in_eye.collect();
+    if in_eye.iter().all(|(_, radius)| *radius <= 0.0) {
+        return Some(EmptyReason::NoSize(in_eye.len()));
+    }
     if in_eye.iter().all(|(center, radius)| center.z - radius > 0.0) {
         return Some(EmptyReason::AllBehind(in_eye.len()));
     }
@@ -123,14 +136,42 @@ pub fn why_empty(world: &mut World) -> Option<EmptyReason> {
     if !lights.any(is_black) && !seen().any(|((object, _), _)| shines(object.3)) {
         return Some(EmptyReason::NoLight(count));
     }
-    let ((object, bounds), _) = seen().next().filter(|_| count == 1)?;
-    let (entity, _, transform, _, faces, name) = object;
-    let model_from_eye = (view.eye_from_world * transform.affine().as_daffine3()).inverse();
-    let eye = model_from_eye.translation.as_vec3();
-    let is_inside = eye.cmpgt(bounds.min).all() && eye.cmplt(bounds.max).all();
-    let culls_backs = faces.is_none_or(|faces| *faces == Faces::Front);
-    (is_inside && culls_backs).then(|| EmptyReason::CameraInside { entity: label(*entity, *name) })
+    if count == 1
+        && let Some(((object, bounds), _)) = seen().next()
+    {
+        let (entity, _, transform, _, faces, name) = object;
+        let model_from_eye = (view.eye_from_world * transform.affine().as_daffine3()).inverse();
+        let eye = model_from_eye.translation.as_vec3();
+        let is_inside = eye.cmpgt(bounds.min).all() && eye.cmplt(bounds.max).all();
+        let culls_backs = faces.is_none_or(|faces| *faces == Faces::Front);
+        if is_inside && culls_backs {
+            return Some(EmptyReason::CameraInside { entity: label(*entity, *name) });
+        }
+    }
+    let turns_away = |object: &Object| {
+        let shown = object.4.copied().unwrap_or_default();
+        meshes.get(&object.1.0).is_some_and(|mesh| !shows_a_face(mesh, object.2, shown, &view))
+    };
+    seen().all(|((object, _), _)| turns_away(object)).then_some(EmptyReason::FacesAway(count))
 }
+
+/// Whether one of the sides that are shown of a triangle is turned to the camera.
+fn shows_a_face(mesh: &Mesh, transform: &GlobalTransform, shown: Faces, view: &View) -> bool {
+    if shown == Faces::Both {
+        return true;
+    }
+    let eye_from_model = view.eye_from_world * transform.affine().as_daffine3();
+    let mirrors = eye_from_model.matrix3.determinant() < 0.0;
+    let is_parallel = view.lens.is_parallel;
+    mesh.triangles().any(|triangle| {
+        let [a, b, c] = triangle.map(|i| eye_from_model.transform_point3(mesh.positions()[i as usize].as_dvec3()));
+        let toward_eye = if is_parallel { DVec3::Z } else { -a };
+        let turn = (b - a).cross(c - a).dot(toward_eye);
+        if mirrors == (shown == Faces::Front) { turn < 0.0 } else { turn > 0.0 }
+    })
+}
+
+type Object<'a> = (Entity, &'a Mesh3d, &'a GlobalTransform, Option<&'a Material>, Option<&'a Faces>, Option<&'a Name>);
 
 type Objects<'w, 's> = Query<
     'w,

@@ -96,12 +96,14 @@ mod projection;
 mod propagation;
 mod range;
 pub mod record;
+mod rig;
 mod shade;
 mod shading;
 #[cfg(feature = "ecs")]
 mod shown;
 mod tolerance;
 mod vertex_colors;
+mod view;
 mod visibility;
 
 pub use alpha::AlphaMode;
@@ -129,9 +131,13 @@ pub use projection::{DepthSpan, Film, Lens, LensTerms, Projection, ViewRay};
 #[cfg(feature = "ecs")]
 pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
+pub use rig::LightRig;
 pub use shading::{Faces, Reflectance, Shading, Terms, Viewer};
 #[cfg(feature = "ecs")]
 pub use shown::Shown;
 pub use tolerance::{Tolerance, ViewTolerance};
 pub use vertex_colors::VertexColors;
+pub use view::View;
+#[cfg(feature = "ecs")]
+pub use view::{Framing, TightFit};
 pub use visibility::Visibility;

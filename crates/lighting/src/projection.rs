@@ -242,6 +242,24 @@ impl Projection {
         }
     }
 
+    /// The projection with the middle of the picture magnified, `zoom` times and above 0: a narrower field of view, or
+    /// less height.
+    #[must_use]
+    pub fn zoomed(self, zoom: f32) -> Self {
+        // The shift is counted in heights, which become smaller.
+        let zoomed = |film: Film| Film { shift: film.shift.map(|shift| shift * zoom), ..film };
+        match self {
+            Self::Perspective { fov_y, near, film } if zoom != 1.0 => {
+                let half = (f64::from(fov_y) * 0.5).tangent() / f64::from(zoom);
+                Self::Perspective { fov_y: 2.0 * libm::atan(half) as f32, near, film: zoomed(film) }
+            }
+            Self::Orthographic { height, near, far, film } => {
+                Self::Orthographic { height: height / zoom, near, far, film: zoomed(film) }
+            }
+            perspective => perspective,
+        }
+    }
+
     /// The projection after the camera has moved along its view from one distance from what it looks at to another. An
     /// orthographic picture shows more by the same factor, and its planes stay where they are; a perspective stays as it
     /// is.

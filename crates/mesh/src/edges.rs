@@ -84,8 +84,16 @@ pub(crate) fn next_corner(corner: u32) -> u32 {
 impl Edges {
     /// The edges of triangles; fewer than 2³² corners in all.
     pub(crate) fn new(triangles: Vec<[u32; 3]>) -> Self {
+        Self::at_points(triangles, |_| true)
+    }
+
+    /// The edges whose lower end is among these points.
+    pub(crate) fn at_points(triangles: Vec<[u32; 3]>, is_among: impl Fn(u32) -> bool) -> Self {
         let mut edges = Self { triangles, passes: Vec::new() };
-        let is_edge = |pass: &u32| edges.point(*pass) != edges.point(next_corner(*pass));
+        let is_edge = |pass: &u32| {
+            let [lower, higher] = edges.ends(*pass);
+            lower != higher && is_among(lower)
+        };
         let mut passes: Vec<u32> = (0..3 * edges.triangles.len() as u32).filter(is_edge).collect();
         passes.par_sort_unstable_by_key(|&pass| (edges.ends(pass), pass));
         edges.passes = passes;

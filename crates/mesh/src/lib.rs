@@ -34,7 +34,8 @@ pub use component::{Mesh3d, MeshPlugin, SpawnOrder};
 #[cfg(feature = "formats")]
 pub use edges::MeshEdge;
 pub use files::{
-    Format, LoadError, LoadOptions, LoadProgress, WriteError, load, load_bytes, load_with, write, write_quantised,
+    Format, LoadError, LoadOptions, LoadProgress, MOST_PIPED, WriteError, load, load_bytes, load_stream, load_with,
+    write, write_quantised,
 };
 pub use mesh::{Mesh, MeshError};
 #[cfg(feature = "formats")]

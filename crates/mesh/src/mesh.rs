@@ -49,6 +49,18 @@ struct MeshData {
     indices: Arc<Vec<u32>>,
     bounds: Bounds,
     surface: Option<Surface>,
+    /// Whether nobody gave the normals, and the default weighting made them.
+    has_default_normals: DefaultNormals,
+}
+
+/// A flag in which equal meshes may differ.
+#[derive(Clone, Copy, Debug, Default)]
+struct DefaultNormals(bool);
+
+impl PartialEq for DefaultNormals {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// Why a mesh was refused. Vertices and triangles are numbered from 0.
@@ -186,11 +198,13 @@ impl Mesh {
         }
         check_indices(&indices, positions.len())?;
 
+        let are_given = normals.is_some();
         let (normals, report) = match normals {
             Some(given) => kept_normals(given, &positions, &indices),
             None => vertex_normals(&positions, &indices, NormalWeighting::default()),
         };
-        Ok((Self::checked(positions, normals, uvs, indices), report))
+        let mesh = Self::checked(positions, normals, uvs, indices);
+        Ok((if are_given { mesh } else { mesh.with_normals_as_default() }, report))
     }
 
     /// A mesh from data that is known to be valid.
@@ -207,6 +221,7 @@ impl Mesh {
             indices: Arc::new(indices),
             bounds,
             surface: None,
+            has_default_normals: DefaultNormals(false),
         };
         Self { data: Arc::new(data) }
     }
@@ -263,6 +278,7 @@ impl Mesh {
         let data = Arc::make_mut(&mut self.data);
         data.normals = Arc::new(normals);
         data.tangents = None;
+        data.has_default_normals = DefaultNormals(false);
         Ok(())
     }
 
@@ -302,6 +318,7 @@ impl Mesh {
         mesh.changed(|data| {
             data.second_uvs = self.uv_set(1).map(|all| Arc::new(extend(all, pairs.clone(), Vec2::midpoint)));
             data.colors = self.colors().map(|all| Arc::new(extend(all, pairs, Vec4::midpoint)));
+            data.has_default_normals = self.data.has_default_normals;
         })
     }
 
@@ -310,7 +327,19 @@ impl Mesh {
         self.changed(|data| {
             data.normals = Arc::new(normals);
             data.tangents = None;
+            data.has_default_normals = DefaultNormals(false);
         })
+    }
+
+    /// The mesh with its normals marked as those of the default weighting, which nobody gave.
+    pub(crate) fn with_normals_as_default(self) -> Self {
+        self.changed(|data| data.has_default_normals = DefaultNormals(true))
+    }
+
+    /// Whether its normals were given, by a file, a formula or a policy; else the default weighting made them for want
+    /// of others, and [`Normals::Auto`](crate::Normals::Auto) replaces them.
+    pub fn has_given_normals(&self) -> bool {
+        !self.data.has_default_normals.0
     }
 
     /// Replaces the positions by valid ones, as many as before.
@@ -349,6 +378,7 @@ impl Mesh {
             data.colors = self.colors().map(|all| Arc::new(pick(all, vertices)));
             data.tangents = self.tangents().map(|all| Arc::new(pick(all, vertices)));
             data.surface = self.surface().cloned();
+            data.has_default_normals = self.data.has_default_normals;
         })
     }
 

@@ -14,8 +14,8 @@ use halfway_render::{Headless, Picture, Pixels, Quantity, RenderError, render_pi
 use thiserror::Error;
 
 use crate::output::{
-    AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, check_quantity_file, write_picture,
-    write_quantities,
+    AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, check_quantity_file, encode_picture,
+    write_picture, write_quantities,
 };
 
 /// Makes the target a texture of `size` pixels. Part of `HalfwayPlugins::headless`.
@@ -58,8 +58,9 @@ impl Plugin for HeadlessPlugin {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
-    /// The file. One frame makes a picture: `.png` or `.exr`. More make an animated PNG, or a file each where the path
-    /// has a `{}`, which becomes the frame's number with four digits.
+    /// The file. One frame makes a picture: `.png`, `.jpg`, `.webp` or `.exr`. More make an animated PNG, or a file each
+    /// where the path has a `{}`, which becomes the frame's number with four digits. `-` is standard output, for one
+    /// frame.
     pub path: PathBuf,
     /// The frames to keep, counted from 0. Those before the first run as well, since motion continues from frame to
     /// frame; they are drawn small, or in full if the camera's intensity policy depends on the frame before. Default
@@ -69,6 +70,9 @@ pub struct Recording {
     pub size: UVec2,
     /// Bits a channel, as [`PictureFormat::from_path`] takes them; `None` is the format's default.
     pub bits: Option<u32>,
+    /// The format of pictures, as the ending of a file without its dot; `None` where the path has it. PNG on standard
+    /// output.
+    pub format: Option<String>,
     /// Frames a second: the App's time advances by 1/`rate` between frames. Default 30.
     pub rate: u16,
     /// The file for a contact sheet of up to 16 of the frames, if any.
@@ -84,7 +88,48 @@ impl Recording {
 
     /// Records the first frame, at 1280 × 720, to `path`.
     pub fn new(path: PathBuf) -> Self {
-        Self { path, frames: 0..1, size: Self::SIZE, bits: None, rate: 30, contact_sheet: None, also: Vec::new() }
+        Self {
+            path,
+            frames: 0..1,
+            size: Self::SIZE,
+            bits: None,
+            format: None,
+            rate: 30,
+            contact_sheet: None,
+            also: Vec::new(),
+        }
+    }
+
+    /// Whether the picture goes to standard output.
+    pub fn is_standard_output(&self) -> bool {
+        self.path == Path::new("-")
+    }
+
+    /// The format of the picture of a frame.
+    ///
+    /// # Errors
+    /// As [`PictureFormat::from_path`].
+    pub fn format_of(&self, frame: u32) -> Result<PictureFormat, OutputError> {
+        let path = self.path_of(frame);
+        let ending = self.format.as_deref().or(self.is_standard_output().then_some("png"));
+        // Errors name the file as it was given.
+        match ending {
+            Some(ending) => PictureFormat::from_ending(ending, &path, self.bits),
+            None => PictureFormat::from_path(&path, self.bits),
+        }
+    }
+
+    /// Writes the picture of a frame to its file, or to standard output.
+    ///
+    /// # Errors
+    /// As [`write_picture`].
+    pub fn write(&self, frame: u32, picture: &Picture, encoding: Encoding) -> Result<(), OutputError> {
+        let format = self.format_of(frame)?;
+        if self.is_standard_output() {
+            let name = Path::new("standard output");
+            return encode_picture(picture, &mut std::io::stdout().lock(), name, format, encoding);
+        }
+        write_picture(picture, &self.path_of(frame), format, encoding)
     }
 
     /// Whether the frames go into one animated PNG.
@@ -253,11 +298,7 @@ pub fn record_with(
         return Err(RecordError::NoFrames(recording.frames.clone()));
     }
     let mut sink = Sink::new(recording)?;
-    let pixels = if recording.is_animation() {
-        Pixels::Byte
-    } else {
-        PictureFormat::from_path(&recording.path_of(0), recording.bits)?.pixels()
-    };
+    let pixels = if recording.is_animation() { Pixels::Byte } else { recording.format_of(0)?.pixels() };
     let [full, small] =
         [recording.size, (recording.size / SMALLER).max(UVec2::ONE)].map(|size| Headless { size, pixels });
     app.insert_resource(full);
@@ -347,7 +388,7 @@ impl<'a> Sink<'a> {
                 return Err(OutputError::Bits { file, bits, expected: "8 in an animated PNG" }.into());
             }
         } else {
-            PictureFormat::from_path(&recording.path_of(0), recording.bits)?;
+            recording.format_of(0)?;
         }
         for (quantity, file) in &recording.also {
             check_quantity_file(*quantity, file)?;
@@ -382,9 +423,7 @@ impl<'a> Sink<'a> {
             };
             animation.frame(picture)?;
         } else {
-            let path = recording.path_of(frame);
-            let format = PictureFormat::from_path(&path, recording.bits)?;
-            write_picture(picture, &path, format, encoding)?;
+            recording.write(frame, picture, encoding)?;
         }
         if let Some(path) = &recording.contact_sheet {
             let index = frame - recording.frames.start;

@@ -102,7 +102,8 @@ pub(crate) fn log_why_empty(world: &mut World) {
     let reason = why_empty(world).filter(|reason| !matches!(reason, EmptyReason::CameraInside { .. }));
     let Some(reason) = reason else { return };
     if world.resource_mut::<Logged>().is_new(&reason.to_string()) {
-        log::warn!("the picture shows nothing: {reason}");
+        // A name of its own, so that a program can give the remedy in its own words.
+        log::warn!(target: "halfway_render::empty", "the picture shows nothing: {reason}");
     }
 }
 

@@ -2,6 +2,7 @@
 
 use bevy_color::LinearRgba;
 use bevy_math::{DVec3, Vec3};
+use halfway_lighting::{LightComponent, LightRig, TightFit};
 
 use crate::light::{AttachEntry, LightEntry, LightKind};
 use crate::view::CameraEntry;
@@ -19,9 +20,9 @@ const MARGIN: f64 = 1.12;
 /// Without points it is [`CameraEntry::default`]. Points that coincide are seen as if they were a unit apart.
 pub fn framing_camera(points: impl IntoIterator<Item = Vec3>, aspect: f32) -> CameraEntry {
     let points: Vec<DVec3> = points.into_iter().map(Vec3::as_dvec3).collect();
-    let Some(&first) = points.first() else { return CameraEntry::default() };
-    let (min, max) = points.iter().fold((first, first), |(min, max), &p| (min.min(p), max.max(p)));
-    let center = (min + max) * 0.5;
+    if points.is_empty() {
+        return CameraEntry::default();
+    }
     let back = DVec3::new(AZIMUTH.sin() * ELEVATION.cos(), ELEVATION.sin(), AZIMUTH.cos() * ELEVATION.cos());
     let right = DVec3::Y.cross(back).normalize();
     let up = back.cross(right);
@@ -29,11 +30,8 @@ pub fn framing_camera(points: impl IntoIterator<Item = Vec3>, aspect: f32) -> Ca
     let default = CameraEntry::default();
     let tan_y = (f64::from(default.fov_y_deg).to_radians() * 0.5).tan();
     let tan_x = tan_y * f64::from(aspect.clamp(1e-4, 1e4));
-    let (aside, distance_x) = fit(&points, center, right, back, tan_x);
-    let (above, distance_y) = fit(&points, center, up, back, tan_y);
-    let target = center + right * aside + up * above;
-    let tight = distance_x.max(distance_y);
-    let nearest = points.iter().map(|p| (*p - center).dot(back)).fold(0.0, f64::max);
+    let fit = TightFit::new(&points, [right, up, back], [tan_x, tan_y]);
+    let TightFit { center, target, distance: tight, nearest } = fit;
     // Far from the origin the camera must not be rounded onto its target.
     let least = center.abs().max_element() * 1e-5;
     let distance = if tight > 0.0 { (tight * MARGIN).max(least) } else { least.max(1.0) * 3.0 };
@@ -43,19 +41,6 @@ pub fn framing_camera(points: impl IntoIterator<Item = Vec3>, aspect: f32) -> Ca
         near: near_plane(distance, nearest),
         ..default
     }
-}
-
-/// The offset from `center` along `axis`, and the least distance along `back`, of an eye, so that the points lie within
-/// the half angle of this tangent to both sides of its line of sight.
-///
-/// A point (x, z) is inside when |x − c| ≤ (d − z)·tan, that is, when c + d·tan is at least x + z·tan and d·tan − c at
-/// least z·tan − x. The largest of each over all points decides, and half their sum is the least d·tan.
-fn fit(points: &[DVec3], center: DVec3, axis: DVec3, back: DVec3, tan: f64) -> (f64, f64) {
-    let (right, left) = points.iter().fold((f64::MIN, f64::MIN), |(right, left), p| {
-        let (x, z) = ((*p - center).dot(axis), (*p - center).dot(back));
-        (right.max(z * tan + x), left.max(z * tan - x))
-    });
-    ((right - left) * 0.5, (right + left) * 0.5 / tan)
 }
 
 /// Well in front of everything, yet so near that one can go closer.
@@ -84,6 +69,37 @@ pub fn default_lights() -> Vec<LightEntry> {
         light([-1.0, -0.3, -0.3], [0.14, 0.16, 0.19], 0.5, AttachEntry::World),
         light([0.0, 0.0, -1.0], [0.1; 3], 1.0, AttachEntry::Camera),
     ]
+}
+
+/// The lights of a rig, attached to the camera.
+///
+/// ```
+/// use halfway_lighting::LightRig;
+/// use halfway_scene::{AttachEntry, SceneFile, rig_lights};
+///
+/// let scene = SceneFile { lights: Some(rig_lights(LightRig::ThreePoint)), ..SceneFile::for_model("part.stl") };
+/// assert!(scene.lights.iter().flatten().all(|light| light.attach == AttachEntry::Camera));
+/// ```
+pub fn rig_lights(rig: LightRig) -> Vec<LightEntry> {
+    let entry = |(light, direction): (LightComponent, Vec3)| {
+        let mut entry = match light {
+            LightComponent::Hemisphere(light) => {
+                LightEntry { hemisphere: light, ..LightEntry::white(LightKind::Hemisphere) }
+            }
+            LightComponent::Directional(light) => {
+                let mut entry = LightEntry::white(LightKind::Directional);
+                (entry.light.ambient, entry.light.diffuse) = (light.ambient, light.diffuse);
+                entry.light.specular = light.specular;
+                entry
+            }
+            // Rigs have no lights with a place.
+            LightComponent::Point(light) => LightEntry { light, ..LightEntry::white(LightKind::Point) },
+            LightComponent::Spot(light) => LightEntry { light: light.light, ..LightEntry::white(LightKind::Spot) },
+        };
+        entry.cone.direction = direction.to_array();
+        LightEntry { attach: AttachEntry::Camera, ..entry }
+    };
+    rig.lights().into_iter().map(entry).collect()
 }
 
 #[cfg(test)]

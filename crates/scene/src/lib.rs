@@ -38,7 +38,7 @@ mod transform;
 mod view;
 
 pub use animation::{AnimatedKey, AnimationPlugin, AnimationSystems, Interpolation, KeyFrame, SceneTime, TrackEntry};
-pub use defaults::{default_lights, framing_camera};
+pub use defaults::{default_lights, framing_camera, rig_lights};
 pub use displacement::DisplacementEntry;
 pub use edges::EdgesEntry;
 pub use environment::EnvironmentEntry;
@@ -47,14 +47,14 @@ pub use file::SceneFile;
 pub use halfway_lighting::LightComponent;
 pub use light::{AttachEntry, ConeEntry, LightEntry, LightKind};
 pub use material::MaterialEntry;
-pub use mesh::{InlineMesh, MeshEntry};
+pub use mesh::{InlineMesh, LoadedModel, MeshEntry};
 pub use model_root::{ModelError, ModelFailed, ModelParts, ModelRoot, spawn_model};
 pub use named::NameOrIndex;
 pub use object::ObjectEntry;
 pub use scalars::{ColorMap, ScalarValues, Scalars, ScalarsError};
 pub use schema::json_schema;
 pub use solid::SolidEntry;
-pub use spawn::{Spawned, spawn, spawn_seen_from};
+pub use spawn::{Spawned, outline, spawn, spawn_seen_from};
 pub use surface::{
     BezierEntry, CapsuleEntry, ConeMeshEntry, CylinderEntry, DiscEntry, EllipsoidEntry, HeightFieldEntry,
     HyperboloidEntry, HyperboloidSheetEntry, ParaboloidEntry, PolynomialEntry, SurfaceEntry, TorusEntry,

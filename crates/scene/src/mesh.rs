@@ -2,10 +2,13 @@
 
 use std::ops::Bound::Included;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use bevy_math::{Vec2, Vec3, Vec4};
-use halfway_lighting::Range;
-use halfway_mesh::{Cuboid, Format, Icosphere, Mesh, MeshError, NormalWeighting, Normals, Plane, Teapot, UvSphere};
+use halfway_lighting::{Material, Range};
+use halfway_mesh::{
+    Cuboid, Format, Icosphere, Mesh, MeshError, Model, NormalWeighting, Normals, Plane, Teapot, UvSphere,
+};
 
 use crate::check::{Check, KeyProblem, Limits, Within};
 use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, Words, keys, words};
@@ -30,6 +33,33 @@ pub enum MeshEntry {
     Surface(SurfaceEntry),
     /// Vertices and triangles, written out.
     Inline(InlineMesh),
+    /// A model that was loaded already; in a file it is written as its path.
+    Model(LoadedModel),
+}
+
+/// A model in memory that nothing is known of but what its file says. Unlike a model by its path, an open mesh without
+/// a material of its own is seen from both sides, unless [`ObjectEntry::faces`](crate::ObjectEntry) says otherwise.
+///
+/// ```
+/// use std::sync::Arc;
+/// use halfway_lighting::Material;
+/// use halfway_mesh::{Format, load_bytes};
+/// use halfway_scene::{LoadedModel, MeshEntry, ObjectEntry, SceneFile};
+///
+/// let model = load_bytes(Format::Obj, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")?;
+/// let model = LoadedModel { path: "leaf.obj".into(), model: Arc::new(model), material: Material::default() };
+/// let scene = SceneFile { objects: vec![ObjectEntry::new(MeshEntry::Model(model))], ..SceneFile::default() };
+/// scene.validate().unwrap();
+/// # Ok::<(), halfway_mesh::LoadError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedModel {
+    /// The file it came from, by which messages name it.
+    pub path: PathBuf,
+    /// The model.
+    pub model: Arc<Model>,
+    /// The material of parts that have none of their own.
+    pub material: Material,
 }
 
 const PATH: Key = Key::required("path", "A model file, relative to the scene file: smf, obj, gltf, glb, ply or stl.");
@@ -57,7 +87,7 @@ impl Keys for MeshEntry {
 
     fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
         match self {
-            Self::Path(path) => visitor.key(&PATH, Some(path)),
+            Self::Path(path) | Self::Model(LoadedModel { path, .. }) => visitor.key(&PATH, Some(path)),
             Self::UvSphere(sphere) => visitor.key(&UV_SPHERE, Some(sphere)),
             Self::Plane(plane) => visitor.key(&PLANE, Some(plane)),
             Self::Box(cuboid) => visitor.key(&BOX, Some(cuboid)),
@@ -237,6 +267,7 @@ impl Keys for Normals {
         ("area", Self::Weighted(NormalWeighting::Area), "The mean weighted by the faces' areas."),
         ("angle", Self::Weighted(NormalWeighting::Angle), "The mean weighted by the faces' angles at the vertex."),
         ("max", Self::Weighted(NormalWeighting::Max), "The mean with the weights of Max 1999."),
+        ("auto", Self::Auto, "The file's own, else creased at the sharp edges of a made part and smooth on all else."),
     ];
 
     fn blank() -> Self {

@@ -3,18 +3,19 @@
 use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
 use halfway_asset::Handle;
-use halfway_mesh::{Mesh, Model, NormalReport, SourceCamera, SourceMap, SourceMaterial};
+use halfway_mesh::{Mesh, Model, NormalReport, Normals, SourceCamera, SourceMap, SourceMaterial};
 use halfway_texture::{FarNormals, MapKind, Pyramid, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
-use crate::mesh::MeshEntry;
+use crate::mesh::{LoadedModel, MeshEntry};
 use crate::object::ObjectEntry;
-use halfway_lighting::{AlphaMode, LightComponent};
+use halfway_lighting::{AlphaMode, Faces, LightComponent};
 
 /// The mesh of an object.
 pub(crate) struct ObjectShape {
@@ -70,6 +71,10 @@ impl<'a> Shapes<'a> {
             // Written out for one object; comparing it with others would cost more than it saves.
             MeshEntry::Inline(_) => None,
             MeshEntry::Path(path) => Some(format!("path {}", path.display())),
+            // Its open parts are looked for only where nobody chose its faces.
+            MeshEntry::Model(loaded) => {
+                Some(format!("model {:?} {}", Arc::as_ptr(&loaded.model), object.faces.is_none()))
+            }
             surface => Some(format!("{surface:?}")),
         };
         let key = key.map(|key| format!("{key} {:?} {:?}", object.normals, object.displacement));
@@ -106,6 +111,15 @@ impl<'a> Shapes<'a> {
                 let model =
                     halfway_mesh::load(&path).map_err(|source| SceneError::Model { key: mesh_path(index), source })?;
                 return self.model(model, &path, object, index);
+            }
+            MeshEntry::Model(LoadedModel { path, model, material }) => {
+                let mut shape = self.model(Model::clone(model), path, object, index)?;
+                for part in shape.parts.iter_mut().filter(|part| part.own.is_none()) {
+                    let is_open = object.faces.is_none() && part.mesh.is_open();
+                    let faces = if is_open { Faces::Both } else { Faces::default() };
+                    part.own = Some(ModelMaterial { material: *material, faces, alpha: AlphaMode::default() });
+                }
+                return Ok(shape);
             }
             MeshEntry::UvSphere(sphere) => Mesh::from(*sphere),
             MeshEntry::Plane(plane) => Mesh::from(*plane),
@@ -149,7 +163,7 @@ impl<'a> Shapes<'a> {
 
     fn model(
         &mut self,
-        model: Model,
+        mut model: Model,
         path: &Path,
         object: &ObjectEntry,
         index: usize,
@@ -174,6 +188,9 @@ impl<'a> Shapes<'a> {
             Ok(ShapeLight { name: light.name.clone(), light: component, object_from_light })
         });
         let lights = lights.collect::<Result<Vec<_>, SceneError>>()?;
+        if object.normals == Normals::Auto {
+            model.make_auto_normals();
+        }
         let mut parts = Vec::with_capacity(model.parts.len());
         for part in model.parts {
             let at = format!("{file}: part {:?}", part.name);

@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
-use bevy_math::{Mat4, Vec3};
+use bevy_math::{DAffine3, Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_asset::{Assets, Handle};
 use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, VertexColors, ViewTolerance};
@@ -120,7 +120,7 @@ fn spawn_seen(
     if let Some(tolerance) = own_tolerance.or(scene.tolerance) {
         world.insert_resource(ViewTolerance(tolerance));
     }
-    let camera = spawn_camera(scene, &seen, world);
+    let camera = spawn_camera(scene, &objects, &seen, world);
     let (mut handles, mut textures) = (Handles::new(), TextureHandles::new());
     let frames = objects
         .iter()
@@ -160,7 +160,7 @@ impl SeenFrom {
         let Some(wanted) = wanted else {
             return Ok(Self::Entry(scene.all_cameras().next().cloned().unwrap_or_else(|| {
                 let [width, height] = scene.size;
-                framing_camera(outline(objects), width as f32 / height as f32)
+                framing_camera(outline_of(objects), width as f32 / height as f32)
             })));
         };
         let of_models = || {
@@ -206,7 +206,7 @@ impl SeenFrom {
     }
 }
 
-fn spawn_camera(scene: &SceneFile, seen: &SeenFrom, world: &mut World) -> Entity {
+fn spawn_camera(scene: &SceneFile, objects: &[Object], seen: &SeenFrom, world: &mut World) -> Entity {
     let default = CameraEntry::default();
     let (entry, name, projection, place) = match seen {
         SeenFrom::Entry(entry) => (entry, entry.name.as_deref(), entry.projection(), entry.transform()),
@@ -223,6 +223,15 @@ fn spawn_camera(scene: &SceneFile, seen: &SeenFrom, world: &mut World) -> Entity
         samples: if entry.samples.unwrap_or(scene.samples) == 4 { Samples::Four } else { Samples::One },
         encoding: scene.output,
         intensity: scene.intensity,
+    };
+    let [width, height] = scene.size;
+    let framing = match seen {
+        SeenFrom::Entry(entry) => entry.framing(),
+        SeenFrom::Model { .. } => None,
+    };
+    let (camera, place) = match framing {
+        Some(framing) => framing.camera(camera, outline_of(objects), width as f32 / height as f32),
+        None => (camera, place),
     };
     let view = (entry.shading.unwrap_or(scene.shading), entry.reflectance.unwrap_or(scene.reflectance));
     let name = Name::new(name.unwrap_or("camera").to_owned());
@@ -241,7 +250,7 @@ fn is_animated(entity: Entity, world: &World) -> bool {
 const FRAMED_VERTICES: usize = 1 << 20;
 
 /// The vertices of all parts in the world, or, where they are many, the corners of the boxes around the parts.
-fn outline(objects: &[Object]) -> Vec<Vec3> {
+fn outline_of(objects: &[Object]) -> Vec<Vec3> {
     let vertices: usize =
         objects.iter().flat_map(|(_, shape)| &shape.parts).map(|part| part.mesh.positions().len()).sum();
     let mut outline = Vec::new();
@@ -259,6 +268,58 @@ fn outline(objects: &[Object]) -> Vec<Vec3> {
     }
     outline.retain(|point| point.is_finite());
     outline
+}
+
+/// The vertices of all meshes in a world, placed by their `Transform`s and those above them, or, where they are more than
+/// a million, the corners of the boxes around the meshes: what a [`Framing`](halfway_lighting::Framing) frames.
+///
+/// ```
+/// use bevy_app::App;
+/// use bevy_math::Vec3;
+/// use halfway_asset::Assets;
+/// use halfway_lighting::{Camera, Framing, View};
+/// use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin};
+/// use halfway_scene::outline;
+///
+/// let mut app = App::new();
+/// app.add_plugins(MeshPlugin);
+/// let mesh = app.world_mut().resource_mut::<Assets<Mesh>>().add(Cuboid::default());
+/// app.world_mut().spawn(Mesh3d(mesh));
+/// let framing = Framing::new(View::ISO, Vec3::Y);
+/// let camera = framing.camera(Camera::default(), outline(app.world_mut()), 16.0 / 9.0);
+/// app.world_mut().spawn(camera);
+/// ```
+pub fn outline(world: &mut World) -> Vec<Vec3> {
+    let mut objects = world.query::<(Entity, &Mesh3d)>();
+    let Some(meshes) = world.get_resource::<Assets<Mesh>>() else { return Vec::new() };
+    let placed: Vec<(&Mesh, DAffine3)> = objects
+        .iter(world)
+        .filter_map(|(entity, mesh)| Some((meshes.get(&mesh.0)?, world_from(entity, world))))
+        .collect();
+    let vertices: usize = placed.iter().map(|(mesh, _)| mesh.positions().len()).sum();
+    let mut outline = Vec::new();
+    for (mesh, world_from_mesh) in placed {
+        let to_world = |p: Vec3| world_from_mesh.transform_point3(p.as_dvec3()).as_vec3();
+        if vertices <= FRAMED_VERTICES {
+            outline.extend(mesh.positions().iter().copied().map(to_world));
+        } else {
+            outline.extend(corners(&mesh.bounds()).map(to_world));
+        }
+    }
+    outline.retain(|point| point.is_finite());
+    outline
+}
+
+/// The placement of an entity by its transform and those of the entities above.
+fn world_from(entity: Entity, world: &World) -> DAffine3 {
+    let (mut at, mut placement) = (Some(entity), DAffine3::IDENTITY);
+    while let Some(entity) = at {
+        if let Some(transform) = world.get::<Transform>(entity) {
+            placement = transform.compute_affine().as_daffine3() * placement;
+        }
+        at = world.get::<ChildOf>(entity).map(ChildOf::parent);
+    }
+    placement
 }
 
 fn corners(bounds: &Bounds) -> impl Iterator<Item = Vec3> {

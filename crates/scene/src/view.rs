@@ -1,11 +1,12 @@
 //! The keys of a scene file that say how its picture is seen and written.
 
-use std::ops::Bound::Excluded;
+use std::ops::Bound::{Excluded, Included, Unbounded};
 
-use bevy_math::{DMat3, DQuat, DVec3, Vec3};
+use bevy_math::{DMat3, DQuat, DVec3, Quat, Vec3};
 use bevy_transform::components::Transform;
 use halfway_lighting::{
-    Choices, Encoding, Faces, Film, Projection, Range, Reflectance, Shading, Tolerance, VertexColors, Viewer,
+    Choices, Encoding, Faces, Film, Framing, Projection, Range, Reflectance, Shading, Tolerance, VertexColors, View,
+    Viewer,
 };
 
 use crate::animation::{Animate, TrackEntry};
@@ -121,6 +122,43 @@ impl Keys for Tolerance {
     }
 }
 
+const AZIMUTH: Key = Key {
+    limits: Limits::Numbers(Range::FINITE),
+    ..Key::required(
+        "azimuth_deg",
+        "The angle about the upright axis, from the front toward the right side, in degrees.",
+    )
+};
+const ELEVATION: Key = Key {
+    limits: Limits::Numbers(Range::new(Included(-90.0), Included(90.0), "degrees from -90 to 90")),
+    ..Key::required("elevation_deg", "The angle above the ground, in degrees from -90 to 90.")
+};
+
+impl Keys for View {
+    const NAME: &'static str = "View";
+    const MEANING: &'static str = "`view`: the direction from which all objects are seen, in place of `position` and \
+        `target`.";
+    const WORDS: Words<Self> = &named_words::<Self, { Self::CHOICES.len() }>();
+
+    fn blank() -> Self {
+        Self { azimuth: 0.0, elevation: 0.0 }
+    }
+
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
+        visitor.key(&AZIMUTH, Some(&self.azimuth.to_degrees()))?;
+        visitor.key(&ELEVATION, Some(&self.elevation.to_degrees()))
+    }
+
+    fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {
+        from.key(&AZIMUTH, |azimuth: f32| self.azimuth = azimuth.to_radians())?;
+        from.key(&ELEVATION, |elevation: f32| self.elevation = elevation.to_radians())
+    }
+}
+
+impl Object for View {
+    const EXAMPLES: &'static [&'static str] = &["{\"azimuth_deg\": 30, \"elevation_deg\": 20}"];
+}
+
 impl Object for Tolerance {
     const EXPECTED: &'static str = "an object such as {\"steps\": 1.0, \"pixels\": 0.5}";
 }
@@ -152,6 +190,15 @@ keys! {
         aspect: Option<f32> = Film::DEFAULT.aspect => Limits::Numbers(Film::ASPECT),
         /// Width over height of what a pixel shows, 0.0001 to 10000.
         pixel_aspect: f32 = Film::DEFAULT.pixel_aspect => Limits::Numbers(Film::ASPECT),
+        /// The direction from which all objects are seen, in place of `position`, `target` and `near`; `up` is then the
+        /// direction that is upright in the model, such as [0, 0, 1]. null: none.
+        view: Option<View> = None,
+        /// The share of the picture that the objects fill, above 0 and at most 1: the camera keeps its direction and
+        /// takes the distance. null: 0.9 where there is a `view`, else the distance is that of `position`.
+        fit: Option<f32> = None
+            => Limits::Numbers(Range::new(Excluded(0.0), Included(1.0), "a share above 0, at most 1")),
+        /// The magnification about the middle of the picture, above 0.
+        zoom: f32 = 1.0 => Limits::Numbers(Range::new(Excluded(0.0), Unbounded, "a finite number above 0")),
         /// The shading of objects that name none; null: the scene's.
         shading: Option<Shading> = None,
         /// The tolerance of objects that name none; null: the scene's.
@@ -170,6 +217,10 @@ keys! {
         far: f32,
         /// The perspective of a calibrated camera, in place of `fov_y_deg`, `shift`, `aspect` and `pixel_aspect`.
         intrinsics: IntrinsicsEntry,
+        [not in the file]
+        /// Whether rays are parallel where there is no `height`: an orthographic projection as high as what the
+        /// perspective shows at `target`, or as the objects need.
+        ortho: bool,
     }
 }
 
@@ -207,6 +258,9 @@ impl Object for CameraEntry {
         self.check_projection()?;
         self.check_tracks(&self.animation)?;
         direction("up", &self.up)?;
+        if self.view.is_some() {
+            return Ok(());
+        }
         if Vec3::from(self.position) == Vec3::from(self.target) {
             return Err(KeyProblem::new("target", "is where the camera stands; expected another point"));
         }
@@ -261,25 +315,46 @@ impl CameraEntry {
         Ok(())
     }
 
-    /// Its projection.
+    /// Its projection, before a framing changes it.
     pub(crate) fn projection(&self) -> Projection {
         let Self { near, shift, aspect, pixel_aspect, .. } = *self;
         let film = Film { shift, aspect, pixel_aspect };
-        match (self.intrinsics, self.height) {
+        let projection = match (self.intrinsics, self.height) {
             (Some(IntrinsicsEntry { focal, center, size }), _) => {
                 Projection::intrinsics(focal, center, size).with_near(near)
             }
             (None, Some(height)) => Projection::Orthographic { height, near, far: self.far, film },
             (None, None) => Projection::Perspective { fov_y: self.fov_y_deg.to_radians(), near, film },
+        };
+        if self.ortho && self.height.is_none() {
+            let distance = Vec3::from(self.position).distance(Vec3::from(self.target));
+            return Projection::orthographic(projection.height_at(distance) / self.zoom);
         }
+        projection.zoomed(self.zoom)
+    }
+
+    /// How all objects are framed; `None` where the entry says where the camera stands.
+    pub(crate) fn framing(&self) -> Option<Framing> {
+        let up = Vec3::from(self.up);
+        let rotation = match self.view {
+            Some(view) => view.rotation(up),
+            None if self.fit.is_some() => self.rotation(),
+            None => return None,
+        };
+        Some(Framing { rotation, fit: self.fit.unwrap_or(Framing::FIT), zoom: self.zoom })
     }
 
     /// Where it stands and looks.
     pub(crate) fn transform(&self) -> Transform {
+        Transform::from_translation(self.position.into()).with_rotation(self.rotation())
+    }
+
+    /// The camera's rotation where `position` and `target` give it.
+    fn rotation(&self) -> Quat {
         let rotation = self
             .axes()
             .map_or(DQuat::IDENTITY, |[right, up, back]| DQuat::from_mat3(&DMat3::from_cols(right, up, back)));
-        Transform::from_translation(self.position.into()).with_rotation(rotation.normalize().as_quat())
+        rotation.normalize().as_quat()
     }
 
     /// The camera's right, up and back in world space, of unit length and perpendicular; `None` where `position` and

@@ -33,6 +33,7 @@ enum Chore {
     Docs,
     Chart(chores::chart::Options),
     Fuzz(chores::fuzz::Options),
+    InstallDesktop(chores::install_desktop::Options),
     Readme(chores::readme::Options),
     Screen(chores::screen::Options),
     /// Run a scene in which everything changes for 100,000 frames, and fail where memory grows
@@ -62,6 +63,7 @@ impl Chore {
             Self::Docs => chores::docs::run(),
             Self::Chart(options) => chores::chart::run(&options),
             Self::Fuzz(options) => chores::fuzz::run(&options),
+            Self::InstallDesktop(options) => chores::install_desktop::run(&options),
             Self::Readme(options) => chores::readme::run(&options),
             Self::Screen(options) => chores::screen::run(&options),
             Self::Soak(arguments) => chores::program::soak(&arguments),

@@ -118,8 +118,8 @@ fn a_model_is_timed_under_the_lights_that_it_is_drawn_under() {
     let cube = asset("assets/cube.smf");
     let dark = serde_json::json!({ "lights": [], "objects": [{ "mesh": { "path": cube } }] });
     fs::write(folder.join("dark.json"), dark.to_string()).expect("the folder can be written");
-    // A key light, a fill light and a headlight; a candle of its own; and none, since the file says so.
-    for (file, lights) in [(cube.as_str(), 3), (&asset("assets/lantern.glb"), 1), ("dark.json", 0)] {
+    // The studio's four; a candle of its own; and none, since the file says so.
+    for (file, lights) in [(cube.as_str(), 4), (&asset("assets/lantern.glb"), 1), ("dark.json", 0)] {
         assert_eq!(counts(&folder, file, "1", "lights"), [lights; 5], "{file}");
     }
 }

@@ -89,19 +89,21 @@ fn the_reference_renderer_writes_every_format() {
     let draw = |more: &[&str]| {
         succeeds(&folder, &[&["render", &teapot, "--size", "64x48", "--reference"], more].concat());
     };
-    draw(&["-o", "a.png"]);
-    draw(&["-o", "b.png", "--bits", "16"]);
-    draw(&["-o", "c.exr"]);
-    draw(&["-o", "turn.png", "--turntable", "120", "--frames", "0..3"]);
-    draw(&["-o", "frame-{}.png", "--turntable", "120", "--frames", "1..2"]);
+    let draw_one_sample = |more: &[&str]| draw(&[&["--samples", "1"], more].concat());
+    draw_one_sample(&["-o", "a.png"]);
+    draw_one_sample(&["-o", "b.png", "--bits", "16"]);
+    draw_one_sample(&["-o", "c.exr"]);
+    draw_one_sample(&["-o", "turn.png", "--turntable", "120", "--frames", "0..3"]);
+    draw_one_sample(&["-o", "frame-{}.png", "--turntable", "120", "--frames", "1..2"]);
     // The same picture, rounded to 8 bits, 16 bits and single precision.
     for (a, b) in [("b.png", "a.png"), ("c.exr", "a.png"), ("turn.png", "a.png")] {
         succeeds(&folder, &["compare", a, b, "--max", "0"]);
     }
     let turned = halfway(&folder, &["compare", "frame-0001.png", "a.png", "--max", "0"]);
     assert_eq!(turned.status.code(), Some(4), "the camera turns");
-    draw(&["-o", "four.png", "--samples", "4"]);
-    draw(&["-o", "square.png", "--supersample", "2"]);
+    // A model has four samples unless told otherwise.
+    draw(&["-o", "four.png"]);
+    draw_one_sample(&["-o", "square.png", "--supersample", "2"]);
     succeeds(&folder, &["compare", "four.png", "square.png", "--max", "0"]);
     assert_eq!(halfway(&folder, &["compare", "four.png", "a.png", "--max", "0"]).status.code(), Some(4));
 }

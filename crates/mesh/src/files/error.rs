@@ -27,11 +27,20 @@ pub enum LoadError {
         /// The system's error.
         source: io::Error,
     },
-    /// A directory, a device or the like.
+    /// A directory, a device or the like; for a file that a model refers to, also a pipe.
     #[error("{}: not a regular file", path.display())]
     NotAFile {
         /// The path.
         path: PathBuf,
+    },
+    /// The file has more bytes than [`LoadOptions::limit`](crate::LoadOptions::limit) allows, or a pipe than
+    /// [`MOST_PIPED`](crate::MOST_PIPED).
+    #[error("{}: the file is larger than {most} bytes, the limit", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// The limit in bytes.
+        most: u64,
     },
     /// The file has no bytes.
     #[error("{}: the file is empty", path.display())]
@@ -111,6 +120,7 @@ impl LoadError {
         match self {
             Self::Read { path, .. }
             | Self::NotAFile { path }
+            | Self::TooLarge { path, .. }
             | Self::Empty { path }
             | Self::UnknownExtension { path, .. }
             | Self::Stopped { path }

@@ -21,7 +21,7 @@ use crate::Model;
 
 pub use error::LoadError;
 pub use format::Format;
-pub use source::{LoadOptions, LoadProgress};
+pub use source::{LoadOptions, LoadProgress, MOST_PIPED};
 pub use write::{WriteError, write, write_quantised};
 
 use source::Source;
@@ -58,7 +58,7 @@ use source::Source;
 /// ```
 ///
 /// # Errors
-/// The file is missing, empty, not a regular file or of another format; it is malformed, where the error names the line
+/// The file is missing, empty, neither a regular file nor a named pipe, or of another format; it is malformed, where the error names the line
 /// or the element and what was expected there; or it holds no triangle.
 pub fn load(path: &Path) -> Result<Model, LoadError> {
     load_with(path, LoadOptions::default(), &mut |_| ControlFlow::Continue(()))
@@ -75,7 +75,7 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
 ///     println!("{done} of {of} bytes");
 ///     ControlFlow::Continue(())
 /// };
-/// let error = load_with(Path::new("missing.obj"), LoadOptions { outside: true }, &mut progress).unwrap_err();
+/// let error = load_with(Path::new("missing.obj"), LoadOptions { outside: true, ..LoadOptions::default() }, &mut progress).unwrap_err();
 /// assert!(matches!(error, LoadError::Read { .. }));
 /// ```
 ///
@@ -86,7 +86,7 @@ pub fn load_with(
     options: LoadOptions,
     progress: &mut dyn FnMut(LoadProgress) -> ControlFlow<()>,
 ) -> Result<Model, LoadError> {
-    let Some(format) = Format::from_path(path) else {
+    let Some(format) = options.format.or_else(|| Format::from_path(path)) else {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         return Err(LoadError::UnknownExtension { path: path.to_owned(), extension });
     };
@@ -113,6 +113,31 @@ pub fn load_bytes(format: Format, bytes: &[u8]) -> Result<Model, LoadError> {
     let name = format!("model.{}", format.extension());
     let path = Path::new(&name);
     parse(format, Source::from_bytes(path, bytes)?)
+}
+
+/// Reads a model from a stream, such as standard input, to its end; it is kept in memory meanwhile. `name` is what
+/// messages call it. It has no folder: files that it refers to are not read. [`LoadOptions::limit`] holds, by default
+/// [`MOST_PIPED`].
+///
+/// ```
+/// use std::path::Path;
+/// use halfway_mesh::{Format, LoadOptions, load_stream};
+///
+/// let stream = &b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"[..];
+/// let model = load_stream(Format::Obj, Path::new("standard input"), stream, LoadOptions::default())?;
+/// assert_eq!(model.triangle_count(), 1);
+/// # Ok::<(), halfway_mesh::LoadError>(())
+/// ```
+///
+/// # Errors
+/// As [`load`], and [`LoadError::TooLarge`].
+pub fn load_stream(
+    format: Format,
+    name: &Path,
+    stream: impl std::io::Read,
+    options: LoadOptions,
+) -> Result<Model, LoadError> {
+    parse(format, Source::from_stream(name, stream, options)?)
 }
 
 fn parse(format: Format, source: Source) -> Result<Model, LoadError> {

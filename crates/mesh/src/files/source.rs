@@ -1,19 +1,36 @@
 //! Input of the readers: a file or bytes, the progress of reading, and the folder of the files that a model refers to.
 
 use std::fs::{self, File};
-use std::io::{BufRead, BufReader, Read as _};
+use std::io::{self, BufRead, BufReader, Read as _};
 use std::ops::ControlFlow;
 use std::path::{Component, Path, PathBuf};
 
-use super::LoadError;
+use super::{Format, LoadError};
 
 /// The options for loading a model.
+///
+/// ```
+/// use halfway_mesh::{Format, LoadOptions};
+///
+/// // A model of at most a megabyte, whatever its name ends in.
+/// let options = LoadOptions { format: Some(Format::Stl), limit: Some(1 << 20), ..LoadOptions::default() };
+/// assert!(!options.outside);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LoadOptions {
     /// Whether files that the model refers to may lie outside its own folder: by an absolute path, by `..`, or behind a
     /// symbolic link. `false` by default.
     pub outside: bool,
+    /// The format; `None`, the default, where the extension tells it.
+    pub format: Option<Format>,
+    /// The most bytes of the model file and of each file that it refers to; `None`, the default, for any number, and
+    /// for [`MOST_PIPED`] in a pipe.
+    pub limit: Option<u64>,
 }
+
+/// The most bytes that are read from a pipe unless [`LoadOptions::limit`] says otherwise: 1 GiB. They are kept in memory
+/// while the model is read.
+pub const MOST_PIPED: u64 = 1 << 30;
 
 /// The progress of reading a file. Each file that a model refers to counts by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,14 +57,32 @@ pub(super) struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// Opens a regular file that has bytes.
+    /// Opens a file that has bytes: a regular one, or a named pipe, which is read to its end.
     pub(super) fn open(
         path: &'a Path,
         options: LoadOptions,
         on_progress: &'a OnProgress<'a>,
     ) -> Result<Self, LoadError> {
         let around = ModelFolder::of_file(path, options, on_progress);
+        if fs::metadata(path).is_ok_and(|metadata| is_pipe(&metadata)) {
+            let piped = File::open(path).map_err(|source| LoadError::Read { path: path.to_owned(), source })?;
+            return Ok(Self { around, ..Self::from_stream(path, piped, options)? });
+        }
         Ok(Self { path, reader: around.open(path)?, around })
+    }
+
+    /// Reads a stream to its end, and wraps its bytes as the content of a file without a folder.
+    pub(super) fn from_stream(path: &'a Path, stream: impl io::Read, options: LoadOptions) -> Result<Self, LoadError> {
+        let most = options.limit.unwrap_or(MOST_PIPED);
+        let mut bytes = Vec::new();
+        let read = stream.take(most.saturating_add(1)).read_to_end(&mut bytes);
+        read.map_err(|source| LoadError::Read { path: path.to_owned(), source })?;
+        let length = bytes.len() as u64;
+        if length > most {
+            return Err(LoadError::TooLarge { path: path.to_owned(), most });
+        }
+        let reader = Reader::new(path, io::Cursor::new(bytes), length, None)?;
+        Ok(Self { path, reader, around: ModelFolder::nowhere() })
     }
 
     /// Wraps bytes in memory as the content of a file.
@@ -69,12 +104,15 @@ pub(super) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// Opens a regular file that has bytes.
-    fn open(path: &'a Path, on_progress: Option<&'a OnProgress<'a>>) -> Result<Self, LoadError> {
+    fn open(path: &'a Path, limit: Option<u64>, on_progress: Option<&'a OnProgress<'a>>) -> Result<Self, LoadError> {
         let failed = |source| LoadError::Read { path: path.to_owned(), source };
         // Checked before it is opened: opening a pipe waits for its other end.
         let metadata = fs::metadata(path).map_err(failed)?;
         if !metadata.is_file() {
             return Err(LoadError::NotAFile { path: path.to_owned() });
+        }
+        if let Some(most) = limit.filter(|most| metadata.len() > *most) {
+            return Err(LoadError::TooLarge { path: path.to_owned(), most });
         }
         let file = File::open(path).map_err(failed)?;
         Self::new(path, BufReader::with_capacity(CHUNK, file), metadata.len(), on_progress)
@@ -192,7 +230,7 @@ impl<'a> ModelFolder<'a> {
     where
         'a: 'b,
     {
-        Reader::open(path, self.on_progress)
+        Reader::open(path, self.options.limit, self.on_progress)
     }
 
     /// The path of a file that the model refers to, whether it exists or not; `None` if it may not be read.
@@ -211,6 +249,17 @@ impl<'a> ModelFolder<'a> {
             (Ok(found), Ok(folder)) if !found.starts_with(&folder) => None,
             _ => Some(path),
         }
+    }
+}
+
+/// Whether it is a named pipe, whose bytes end.
+fn is_pipe(metadata: &fs::Metadata) -> bool {
+    #[cfg(unix)]
+    return std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type());
+    #[cfg(not(unix))]
+    {
+        let _ = metadata;
+        false
     }
 }
 
@@ -247,9 +296,11 @@ mod tests {
             (".", false),
         ] {
             assert_eq!(stays_inside(Path::new(reference)), inside, "{reference:?}");
-            let around = ModelFolder::of_file(Path::new("model.obj"), LoadOptions { outside: true }, &|_| {
-                ControlFlow::Continue(())
-            });
+            let around = ModelFolder::of_file(
+                Path::new("model.obj"),
+                LoadOptions { outside: true, ..LoadOptions::default() },
+                &|_| ControlFlow::Continue(()),
+            );
             assert_eq!(around.find(reference), Some(Path::new("").join(reference)));
             assert_eq!(ModelFolder::nowhere().find(reference), None);
         }

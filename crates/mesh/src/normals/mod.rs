@@ -8,6 +8,7 @@ mod fans;
 mod means;
 mod policy;
 mod split;
+mod suited;
 
 pub use face::face_normal;
 pub(crate) use face::face_normals;
@@ -49,6 +50,8 @@ pub enum Normals {
         /// The weight of a triangle in the mean.
         weighting: NormalWeighting,
     },
+    /// The file's or the surface's own; where there are none, those that suit the mesh: [`Mesh::suited_normals`].
+    Auto,
 }
 
 /// The weight of a triangle's unit normal in the mean at one of its vertices.

@@ -10,7 +10,8 @@ impl Mesh {
     ///
     /// [`Normals::Keep`] changes nothing. [`Normals::Face`] gives every triangle three vertices of its own, and +Y to
     /// degenerate ones, which are invisible. [`Normals::Weighted`] keeps vertices and triangles. [`Normals::Creased`]
-    /// keeps the triangles, splits vertices and drops unused ones. All but `Keep` drop the tangents.
+    /// keeps the triangles, splits vertices and drops unused ones. [`Normals::Auto`] is `Keep` or `Creased`. All but
+    /// `Keep` drop the tangents.
     #[must_use]
     pub fn with_normals(self, policy: Normals) -> (Self, NormalReport) {
         match policy {
@@ -30,6 +31,11 @@ impl Mesh {
                 (self.with_given_normals(normals), report)
             }
             Normals::Creased { angle, weighting } => creased_normals(&self, angle, weighting),
+            Normals::Auto if self.has_given_normals() => (self, NormalReport::default()),
+            Normals::Auto => {
+                let suited = self.suited_normals();
+                self.with_normals(suited)
+            }
         }
     }
 }

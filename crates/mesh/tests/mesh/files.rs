@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use glam::Vec3;
 use halfway_mesh::{
     Format, GltfMaps, LoadError, LoadOptions, LoadProgress, Mesh, Model, MtlMaps, SourceLightKind, SourceMaterial,
-    Teapot, load, load_bytes, load_with,
+    Teapot, load, load_bytes, load_stream, load_with,
 };
 
 use crate::common::{Folder, TRIANGLE_JSON, check_model, glb, triangle_data};
@@ -161,7 +161,10 @@ fn files_outside_the_folder_need_an_option() {
         let refused = format!("{}: outside the folder of the model, not read", &reference[..reference.len().min(61)]);
         let is_refused = model.warnings.iter().any(|warning| warning.starts_with(&refused[..reference.len().min(50)]));
         assert_eq!(is_refused, !is_inside, "{reference}: {:?}", model.warnings);
-        let model = load_with(&path, LoadOptions { outside: true }, &mut |_| ControlFlow::Continue(())).unwrap();
+        let model = load_with(&path, LoadOptions { outside: true, ..LoadOptions::default() }, &mut |_| {
+            ControlFlow::Continue(())
+        })
+        .unwrap();
         assert_eq!((model.parts[0].material, &model.warnings[..]), (Some(0), &[][..]), "{reference}");
     }
 }
@@ -368,4 +371,62 @@ fn the_cube_is_closed() {
     assert!(model.warnings.is_empty() && model.parts[0].mesh.report().problems.is_none());
     let bounds = model.bounds().unwrap();
     assert_eq!((bounds.min, bounds.max, model.triangle_count()), (Vec3::NEG_ONE, Vec3::ONE, 12));
+}
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+#[test]
+fn files_and_streams_have_limits() {
+    let folder = Folder::new();
+    let path = folder.write("model.obj", TRIANGLE);
+    let length = TRIANGLE.len() as u64;
+    for (limit, fits) in [(Some(length), true), (Some(length - 1), false), (None, true)] {
+        let options = LoadOptions { limit, ..LoadOptions::default() };
+        let name = Path::new("standard input");
+        let from_file = load_with(&path, options, &mut |_| ControlFlow::Continue(()));
+        let from_stream = load_stream(Format::Obj, name, TRIANGLE.as_bytes(), options);
+        for (found, name) in [(from_file, path.as_path()), (from_stream, name)] {
+            match found {
+                Ok(model) => assert!(fits && model.triangle_count() == 1),
+                Err(error) => {
+                    let expected =
+                        format!("{}: the file is larger than {} bytes, the limit", name.display(), length - 1);
+                    assert!(!fits && error.to_string() == expected, "{error}");
+                }
+            }
+        }
+    }
+    // Files that the model refers to have the same limit.
+    let path = folder.write("paint.obj", &format!("mtllib paint.mtl\n{TRIANGLE}"));
+    folder.write("paint.mtl", &format!("newmtl a\n#{}\n", "x".repeat(200)));
+    let options = LoadOptions { limit: Some(100), ..LoadOptions::default() };
+    let loaded = load_with(&path, options, &mut |_| ControlFlow::Continue(()));
+    let said = match loaded {
+        Ok(model) => model.warnings.join("; "),
+        Err(error) => error.to_string(),
+    };
+    assert!(said.contains("larger than 100 bytes"), "{said}");
+}
+
+#[test]
+fn a_format_can_be_given_in_place_of_the_extension() {
+    let folder = Folder::new();
+    let path = folder.write("model.txt", TRIANGLE);
+    let options = LoadOptions { format: Some(Format::Obj), ..LoadOptions::default() };
+    assert!(load_with(&path, options, &mut |_| ControlFlow::Continue(())).is_ok());
+}
+
+#[cfg(unix)]
+#[test]
+fn named_pipes_are_read_to_their_end() {
+    let folder = Folder::new();
+    let path = folder.path().join("pipe.obj");
+    let made = std::process::Command::new("mkfifo").arg(&path).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    let writer = std::thread::spawn({
+        let path = path.clone();
+        move || std::fs::write(path, TRIANGLE)
+    });
+    assert_eq!(load(&path).unwrap().triangle_count(), 1);
+    assert!(writer.join().is_ok_and(|written| written.is_ok()));
 }

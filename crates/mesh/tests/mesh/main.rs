@@ -11,6 +11,7 @@ mod lod;
 mod mesh;
 mod normals;
 mod normals_creased;
+mod normals_suited;
 mod obj;
 mod obj_by_tobj;
 mod occlusion;

@@ -1,9 +1,10 @@
 //! Many frames on one picture.
 
 use halfway_lighting::Encoding;
+use halfway_reference::metrics::{text_height, text_scale, write_text};
 use halfway_render::Picture;
 use image::imageops::{self, FilterType};
-use image::{Rgba, RgbaImage};
+use image::{DynamicImage, Rgb, RgbImage, Rgba, RgbaImage};
 
 use super::encode::{quantise, to_linear};
 
@@ -44,6 +45,12 @@ impl ContactSheet {
 
     /// Adds a frame. Frames narrower than the cells keep their size; frames without pixels are left out.
     pub fn push(&mut self, frame: &Picture) {
+        self.push_with_caption(frame, "");
+    }
+
+    /// Adds a frame with a line of text below it; an empty one takes no room. Characters other than those of ASCII are
+    /// shown as `?`.
+    pub fn push_with_caption(&mut self, frame: &Picture, caption: &str) {
         let (width, height) = frame.dimensions();
         if width == 0 || height == 0 {
             return;
@@ -52,10 +59,19 @@ impl ContactSheet {
         let cell_height = (u64::from(height) * u64::from(cell_width)).div_ceil(u64::from(width)) as u32;
         let linear = to_linear(frame, self.encoding);
         let small = imageops::resize(&linear, cell_width, cell_height, FilterType::Triangle);
-        self.cells.push(RgbaImage::from_fn(cell_width, cell_height, |x, y| {
-            let [r, g, b] = small.get_pixel(x, y).0.map(|i| quantise(i, self.encoding, 255) as u8);
-            Rgba([r, g, b, 255])
-        }));
+        let mut cell = RgbImage::from_fn(cell_width, cell_height, |x, y| {
+            Rgb(small.get_pixel(x, y).0.map(|i| quantise(i, self.encoding, 255) as u8))
+        });
+        if !caption.is_empty() {
+            let scale = text_scale(cell_width);
+            let line = text_height(scale) + 2 * GAP;
+            let [r, g, b, _] = PAPER.0;
+            let mut captioned = RgbImage::from_pixel(cell_width, cell_height + line, Rgb([r, g, b]));
+            imageops::replace(&mut captioned, &cell, 0, 0);
+            write_text(&mut captioned, (GAP, cell_height + GAP), scale, caption);
+            cell = captioned;
+        }
+        self.cells.push(DynamicImage::from(cell).into_rgba8());
     }
 
     /// How many frames are on the sheet.

@@ -1,4 +1,4 @@
-//! Pictures on disk: PNG with 8 or 16 bits, EXR in floating point, animated PNG, and contact sheets.
+//! Pictures on disk: PNG with 8 or 16 bits, JPEG, WebP, EXR in floating point, animated PNG, and contact sheets.
 //!
 //! Every file is written beside its place under another name and moved there when it is complete, so that an
 //! interrupted run leaves no partial picture. Opaque pictures have three channels, others four; the top row comes first.
@@ -32,7 +32,7 @@ pub use encode::to_bytes;
 pub use error::OutputError;
 pub use format::PictureFormat;
 pub use partial::write_text;
-pub use picture::{SavePicture, write_picture};
+pub use picture::{SavePicture, encode_picture, write_picture};
 pub use quantities::{check_quantity_file, write_quantities};
 
 #[cfg(test)]

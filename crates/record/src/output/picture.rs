@@ -1,10 +1,12 @@
 //! Still pictures.
 
-use std::io::Write;
+use std::io::{Cursor, Write};
 use std::path::Path;
 
 use halfway_lighting::Encoding;
-use halfway_render::Picture;
+use halfway_render::{Picture, Pixels};
+use image::codecs::jpeg::JpegEncoder;
+use image::codecs::webp::WebPEncoder;
 use image::{DynamicImage, ImageFormat, Rgba32FImage};
 
 use super::encode::{quantise, to_bytes, to_bytes_with_alpha};
@@ -14,11 +16,13 @@ use super::{OutputError, PictureFormat};
 /// Writes a picture to a file, replacing an existing one.
 ///
 /// `encoding` is the camera's. In a PNG, a picture drawn in floating point is clamped to [0, 1] and encoded with it;
-/// a picture in bytes is encoded already. A PNG of sRGB values is tagged (`sRGB`, `gAMA` and `cHRM` chunks); raw values
-/// are not, since they are meant to be displayed as they are. In an EXR the intensities are stored unchanged.
+/// a picture in bytes is encoded already; likewise in a JPEG and a WebP, which take sRGB for granted. A PNG of sRGB
+/// values is tagged (`sRGB`, `gAMA` and `cHRM` chunks); raw values are not, since they are meant to be displayed as they
+/// are. In an EXR the intensities are stored unchanged.
 ///
-/// A picture that is not opaque everywhere has a fourth channel: in a PNG beside the colours as they are (straight
-/// alpha), in an EXR with colours that are multiplied by it (associated alpha), as these formats have it.
+/// A picture that is not opaque everywhere has a fourth channel: in a PNG and a WebP beside the colours as they are
+/// (straight alpha), in an EXR with colours that are multiplied by it (associated alpha), as these formats have it. A JPEG
+/// has none.
 ///
 /// # Errors
 /// [`OutputError::TooCoarse`] for a byte picture in a format of more bits, [`OutputError::Empty`] for one without
@@ -29,30 +33,112 @@ pub fn write_picture(
     format: PictureFormat,
     encoding: Encoding,
 ) -> Result<(), OutputError> {
-    not_empty(file, picture.dimensions())?;
+    // Refused before a file is made.
+    check(picture, file, format)?;
+    let (partial, mut writer) = Partial::create(file)?;
+    encode_picture(picture, &mut writer, file, format, encoding)?;
+    drop(writer);
+    partial.keep()
+}
+
+/// Writes a picture to a stream, such as standard output; `name` is what errors call it. See [`write_picture`].
+///
+/// ```
+/// use std::path::Path;
+/// use halfway_lighting::Encoding;
+/// use halfway_record::output::{PictureFormat, encode_picture};
+/// use halfway_render::Picture;
+///
+/// let mut bytes = Vec::new();
+/// let picture = Picture::Byte(image::RgbaImage::new(4, 3));
+/// encode_picture(&picture, &mut bytes, Path::new("memory"), PictureFormat::Png8, Encoding::Srgb)?;
+/// assert!(bytes.starts_with(b"\x89PNG"));
+/// # Ok::<(), halfway_record::output::OutputError>(())
+/// ```
+///
+/// # Errors
+/// As [`write_picture`].
+pub fn encode_picture(
+    picture: &Picture,
+    writer: &mut impl Write,
+    name: &Path,
+    format: PictureFormat,
+    encoding: Encoding,
+) -> Result<(), OutputError> {
+    check(picture, name, format)?;
     match (format, picture) {
         (PictureFormat::Png8, _) if is_opaque(picture) => {
             let bytes = to_bytes(picture, encoding);
-            write_png(file, (picture, png::BitDepth::Eight), encoding, bytes.as_raw())
+            write_png(writer, name, (picture, png::BitDepth::Eight), encoding, bytes.as_raw())?;
         }
         (PictureFormat::Png8, _) => {
             let bytes = to_bytes_with_alpha(picture, encoding);
-            write_png(file, (picture, png::BitDepth::Eight), encoding, bytes.as_raw())
+            write_png(writer, name, (picture, png::BitDepth::Eight), encoding, bytes.as_raw())?;
         }
         (PictureFormat::Png16, Picture::Float(image)) => {
             let bytes = sixteen_bits(image, encoding, is_opaque(picture));
-            write_png(file, (picture, png::BitDepth::Sixteen), encoding, &bytes)
+            write_png(writer, name, (picture, png::BitDepth::Sixteen), encoding, &bytes)?;
         }
-        (PictureFormat::Exr, Picture::Float(image)) => write_exr(file, image, is_opaque(picture)),
-        (PictureFormat::Png16 | PictureFormat::Exr, Picture::Byte(_)) => {
-            Err(OutputError::TooCoarse { file: file.to_owned() })
+        (PictureFormat::Jpeg, _) => {
+            let encoder = JpegEncoder::new_with_quality(&mut *writer, QUALITY);
+            let written = to_bytes(picture, encoding).write_with_encoder(encoder);
+            written.map_err(|error| OutputError::image(name, error))?;
         }
+        (PictureFormat::WebP, _) => {
+            let encoder = WebPEncoder::new_lossless(&mut *writer);
+            let written = if is_opaque(picture) {
+                to_bytes(picture, encoding).write_with_encoder(encoder)
+            } else {
+                to_bytes_with_alpha(picture, encoding).write_with_encoder(encoder)
+            };
+            written.map_err(|error| OutputError::image(name, error))?;
+        }
+        (PictureFormat::Exr, Picture::Float(image)) => {
+            let image = if is_opaque(picture) {
+                DynamicImage::from(DynamicImage::ImageRgba32F(image.clone()).into_rgb32f())
+            } else {
+                associated(image.clone())
+            };
+            // The encoder goes back to its beginning, which a stream cannot.
+            let mut bytes = Cursor::new(Vec::new());
+            image.write_to(&mut bytes, ImageFormat::OpenExr).map_err(|error| OutputError::image(name, error))?;
+            writer.write_all(bytes.get_ref()).map_err(|source| OutputError::io(name, source))?;
+        }
+        // Refused by the check.
+        (PictureFormat::Png16 | PictureFormat::Exr, Picture::Byte(_)) => {}
     }
+    writer.flush().map_err(|source| OutputError::io(name, source))
+}
+
+/// The quality of a JPEG, of 100.
+const QUALITY: u8 = 90;
+
+/// The longest side of a JPEG and of a WebP, in pixels.
+const LONGEST_JPEG: u32 = 65_535;
+const LONGEST_WEBP: u32 = 16_384;
+
+fn check(picture: &Picture, file: &Path, format: PictureFormat) -> Result<(), OutputError> {
+    let (width, height) = picture.dimensions();
+    not_empty(file, (width, height))?;
+    if format.pixels() == Pixels::Float && matches!(picture, Picture::Byte(_)) {
+        return Err(OutputError::TooCoarse { file: file.to_owned() });
+    }
+    let longest = match format {
+        PictureFormat::Jpeg => LONGEST_JPEG,
+        PictureFormat::WebP => LONGEST_WEBP,
+        _ => u32::MAX,
+    };
+    if width.max(height) > longest {
+        let message = format!("{width} × {height} pixels; expected sides of at most {longest}");
+        return Err(OutputError::Encode { file: file.to_owned(), message });
+    }
+    Ok(())
 }
 
 /// Writes a picture by the ending of a file's name.
 pub trait SavePicture {
-    /// Writes the picture to `file`, replacing one that is there: `.png` gets 8 bits a channel, `.exr` 32-bit floats.
+    /// Writes the picture to `file`, replacing one that is there: `.png` gets 8 bits a channel, `.exr` 32-bit floats;
+    /// `.jpg` and `.webp` are written, too.
     ///
     /// A PNG is sRGB, as a camera draws by default; a picture drawn under [`Encoding::Raw`], and a PNG of 16 bits, take
     /// [`write_picture`]. An EXR takes a picture drawn in floating point: insert
@@ -69,7 +155,7 @@ pub trait SavePicture {
     /// # std::fs::remove_file(&file).unwrap();
     ///
     /// let error = picture.save("teapot.bmp").unwrap_err();
-    /// assert!(error.to_string().contains("expected a file that ends in .png or .exr"));
+    /// assert!(error.to_string().contains("expected a file that ends in .png, .jpg, .jpeg, .webp or .exr"));
     /// # Ok::<(), OutputError>(())
     /// ```
     ///
@@ -109,12 +195,12 @@ fn sixteen_bits(image: &Rgba32FImage, encoding: Encoding, is_opaque: bool) -> Ve
 }
 
 fn write_png(
-    file: &Path,
+    writer: &mut impl Write,
+    name: &Path,
     (picture, depth): (&Picture, png::BitDepth),
     encoding: Encoding,
     data: &[u8],
 ) -> Result<(), OutputError> {
-    let (partial, writer) = Partial::create(file)?;
     let (width, height) = picture.dimensions();
     let mut encoder = png_encoder(writer, width, height, depth, encoding);
     if !is_opaque(picture) {
@@ -126,8 +212,7 @@ fn write_png(
             writer.write_image_data(data)?;
             writer.finish()
         })
-        .map_err(|error| OutputError::png(file, error))?;
-    partial.keep()
+        .map_err(|error| OutputError::png(name, error))
 }
 
 /// An encoder for pictures of three channels, with the chunks that tag the encoding of the values.
@@ -160,16 +245,6 @@ pub(super) fn tagged<W: Write>(encoder: &mut png::Encoder<'_, W>) {
         green: scaled(30_000, 60_000),
         blue: scaled(15_000, 6_000),
     });
-}
-
-fn write_exr(file: &Path, image: &Rgba32FImage, is_opaque: bool) -> Result<(), OutputError> {
-    let (partial, mut writer) = Partial::create(file)?;
-    let image = DynamicImage::ImageRgba32F(image.clone());
-    let image = if is_opaque { DynamicImage::from(image.into_rgb32f()) } else { associated(image.into_rgba32f()) };
-    image.write_to(&mut writer, ImageFormat::OpenExr).map_err(|error| OutputError::image(file, error))?;
-    writer.flush().map_err(|source| OutputError::io(file, source))?;
-    drop(writer);
-    partial.keep()
 }
 
 /// The colours times the opacity, as an EXR has them.

@@ -79,14 +79,14 @@ fn a_picture_is_saved_by_its_ending() {
 
     let error = bytes().save(file("byte.exr")).unwrap_err().to_string();
     assert!(error.contains("Pixels::Float"), "{error}");
-    let error = bytes().save(file("byte.jpeg")).unwrap_err().to_string();
-    assert!(error.ends_with("expected a file that ends in .png or .exr"), "{error}");
-    assert!(!file("byte.exr").exists() && !file("byte.jpeg").exists());
+    let error = bytes().save(file("byte.bmp")).unwrap_err().to_string();
+    assert!(error.ends_with("expected a file that ends in .png, .jpg, .jpeg, .webp or .exr"), "{error}");
+    assert!(!file("byte.exr").exists() && !file("byte.bmp").exists());
 }
 
 #[test]
 fn formats_by_ending_and_bits() {
-    use PictureFormat::{Exr, Png8, Png16};
+    use PictureFormat::{Exr, Jpeg, Png8, Png16, WebP};
     for (file, bits, expected) in [
         ("a.png", None, Ok(Png8)),
         ("a.PNG", Some(8), Ok(Png8)),
@@ -100,14 +100,48 @@ fn formats_by_ending_and_bits() {
             Some(16),
             Err("a.exr: 16 bits a channel were asked for; expected 32 in an EXR, or the bits left out"),
         ),
-        ("a.jpg", None, Err("a.jpg: unknown ending; expected a file that ends in .png or .exr")),
-        ("png", None, Err("png: unknown ending; expected a file that ends in .png or .exr")),
-        ("", None, Err(": unknown ending; expected a file that ends in .png or .exr")),
+        ("a.jpg", None, Ok(Jpeg)),
+        ("a.JPEG", Some(8), Ok(Jpeg)),
+        ("a.webp", None, Ok(WebP)),
+        ("a.jpg", Some(16), Err("a.jpg: 16 bits a channel were asked for; expected 8 in a JPEG")),
+        ("a.webp", Some(16), Err("a.webp: 16 bits a channel were asked for; expected 8 in a WebP")),
+        ("a.bmp", None, Err("a.bmp: unknown ending; expected a file that ends in .png, .jpg, .jpeg, .webp or .exr")),
+        ("png", None, Err("png: unknown ending; expected a file that ends in .png, .jpg, .jpeg, .webp or .exr")),
+        ("", None, Err(": unknown ending; expected a file that ends in .png, .jpg, .jpeg, .webp or .exr")),
     ] {
         let found = PictureFormat::from_path(Path::new(file), bits).map_err(|error| error.to_string());
         assert_eq!(found, expected.map_err(str::to_owned), "{file} {bits:?}");
     }
     assert_eq!([Png8, Png16, Exr].map(PictureFormat::pixels), [Pixels::Byte, Pixels::Float, Pixels::Float]);
+    assert_eq!([Jpeg, WebP].map(PictureFormat::pixels), [Pixels::Byte; 2]);
+}
+
+#[test]
+fn webp_keeps_every_byte_and_jpeg_nearly() {
+    let folder = Folder::new();
+    let drawn = Picture::Byte(RgbaImage::from_fn(32, 24, |x, y| Rgba([8 * x as u8, 10 * y as u8, 100, 255])));
+    for (name, most) in [("a.webp", 0), ("a.jpg", 12)] {
+        for picture in [&drawn, &floats()] {
+            let file = folder.file(name);
+            write_picture(picture, &file, PictureFormat::from_path(&file, None).unwrap(), Encoding::Srgb).unwrap();
+            let (found, expected) = (image::open(&file).unwrap().into_rgb8(), to_bytes(picture, Encoding::Srgb));
+            assert_eq!(found.dimensions(), expected.dimensions());
+            if picture.dimensions() == (32, 24) {
+                let off = found.iter().zip(expected.iter()).map(|(a, b)| a.abs_diff(*b)).max();
+                assert!(off.is_some_and(|off| off <= most), "{name}: {off:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_picture_too_long_for_its_format_leaves_no_file() {
+    let folder = Folder::new();
+    let file = folder.file("a.webp");
+    let long = Picture::Byte(RgbaImage::new(16_385, 1));
+    let error = write_picture(&long, &file, PictureFormat::WebP, Encoding::Srgb).unwrap_err().to_string();
+    assert!(error.contains("16385 × 1 pixels; expected sides of at most 16384"), "{error}");
+    assert_eq!(folder.names(), Vec::<String>::new());
 }
 
 #[test]
@@ -291,6 +325,37 @@ fn contact_sheets_lay_frames_out_in_a_grid() {
     for (x, y) in [(3, 4), (8, 4), (10, 10), (15, 15)] {
         assert_eq!(picture.get_pixel(x, y).0, [24, 24, 24, 255], "paper at {x} {y}");
     }
+}
+
+#[test]
+fn captions_stand_below_their_frames() {
+    let mut sheet = ContactSheet::new(2, 40, Encoding::Srgb);
+    let white = Picture::Byte(RgbaImage::from_pixel(40, 20, Rgba([255; 4])));
+    sheet.push_with_caption(&white, "top");
+    sheet.push(&white);
+    let Picture::Byte(picture) = sheet.picture() else { panic!("bytes") };
+    // A line of 8 pixels with gaps of 4 above and below it, and gaps of 4 between and around the cells.
+    assert_eq!(picture.dimensions(), (92, 20 + 16 + 8));
+    let ink = |x: u32| {
+        (24..40)
+            .flat_map(|y| (x..x + 40).map(move |x| (x, y)))
+            .filter(|&(x, y)| picture.get_pixel(x, y)[0] > 200)
+            .count()
+    };
+    assert!(ink(4) > 20 && ink(48) == 0, "three letters below the first: {} {}", ink(4), ink(48));
+}
+
+#[test]
+fn pictures_are_written_to_streams() {
+    for format in
+        [PictureFormat::Png8, PictureFormat::Png16, PictureFormat::Jpeg, PictureFormat::WebP, PictureFormat::Exr]
+    {
+        let mut bytes = Vec::new();
+        encode_picture(&floats(), &mut bytes, Path::new("memory"), format, Encoding::Srgb).unwrap();
+        assert_eq!(image::load_from_memory(&bytes).unwrap().width(), 3, "{format:?}");
+    }
+    let error = encode_picture(&bytes(), &mut Vec::new(), Path::new("memory"), PictureFormat::Exr, Encoding::Srgb);
+    assert!(matches!(error, Err(OutputError::TooCoarse { .. })));
 }
 
 #[test]

@@ -13,11 +13,12 @@ pub(super) const PAPER: Rgb<u8> = Rgb([24, 24, 27]);
 pub(super) const INK: Rgb<u8> = Rgb([235, 235, 235]);
 
 /// The scale of text on a picture of this width: each of a glyph's 8 × 8 dots becomes a square of N × N pixels.
-pub(super) fn text_scale(width: u32) -> u32 {
+pub fn text_scale(width: u32) -> u32 {
     if width < 2 * SMALL { 1 } else { 2 }
 }
 
-pub(super) fn text_height(scale: u32) -> u32 {
+/// The height of a line of text of this scale, in pixels.
+pub fn text_height(scale: u32) -> u32 {
     GLYPH * scale
 }
 
@@ -26,7 +27,7 @@ pub(super) fn text_width(text: &str, scale: u32) -> u32 {
 }
 
 /// Writes `text` with its upper left corner at (x, y); glyphs outside are clipped, non-ASCII characters become `?`.
-pub(super) fn write(image: &mut RgbImage, (x, y): (u32, u32), scale: u32, text: &str) {
+pub fn write_text(image: &mut RgbImage, (x, y): (u32, u32), scale: u32, text: &str) {
     for (column, character) in (0..).zip(text.chars()) {
         let glyph = BASIC_LEGACY.get(character as usize).unwrap_or(&BASIC_LEGACY['?' as usize]);
         for (row, bits) in (0..).zip(glyph) {

@@ -2,7 +2,7 @@
 
 use image::{Rgb, RgbImage};
 
-use super::canvas::{INK, PAPER, fill, text_height, text_scale, text_width, write};
+use super::canvas::{INK, PAPER, fill, text_height, text_scale, text_width, write_text};
 use super::scale::{COVERAGE, LegendContent, NOT_FINITE, Unit, color, power_of_ten};
 
 /// The least width, which fits the words.
@@ -25,7 +25,7 @@ pub(super) fn legend(width: u32, shown: LegendContent) -> RgbImage {
         Unit::Steps => "largest channel error, steps of 1/255",
         Unit::Linear => "largest channel error, linear",
     };
-    write(&mut strip, (margin, y), scale, name);
+    write_text(&mut strip, (margin, y), scale, name);
     y += line + margin / 2;
     let length = width - 2 * margin;
     for x in 0..length {
@@ -38,7 +38,7 @@ pub(super) fn legend(width: u32, shown: LegendContent) -> RgbImage {
     let mut x = margin;
     for (color, words) in marks {
         fill(&mut strip, (x, y), (line, line), color);
-        write(&mut strip, (x + line + margin / 2, y), scale, words);
+        write_text(&mut strip, (x + line + margin / 2, y), scale, words);
         x += line + margin / 2 + text_width(words, scale) + 2 * margin;
     }
     strip
@@ -57,7 +57,7 @@ fn ticks(strip: &mut RgbImage, (left, y): (u32, u32), length: u32, scale: u32, s
         let wide = text_width(&label, scale);
         // The numbers at the ends stay inside.
         let x = x.saturating_sub(wide / 2).clamp(left, left + length - wide.min(length));
-        write(strip, (x, y + 3 * scale), scale, &label);
+        write_text(strip, (x, y + 3 * scale), scale, &label);
     }
 }
 

@@ -33,6 +33,7 @@ mod statistics;
 mod table;
 
 pub use bands::{PictureRows, SizeMismatch};
+pub use canvas::{text_height, text_scale, write_text};
 pub use comparison::{Comparison, Difference, NotFinite, compare};
 pub use coverage::Coverage;
 pub use difference::difference;

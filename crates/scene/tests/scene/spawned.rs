@@ -329,3 +329,52 @@ fn an_invalid_scene_leaves_the_world_unchanged() {
     let error = spawn(&SceneFile::default(), Path::new(""), &mut World::new()).unwrap_err();
     assert!(matches!(error, SceneError::NoMeshAssets));
 }
+
+/// The camera of a scene of one plane, 2 wide, upright and facing +Z, in a picture of 2 : 1.
+fn camera_of(camera: &str) -> (Camera, Transform) {
+    let plane = r#"{"mesh": {"plane": {}}, "transform": {"rotation_deg": [90, 0, 0]}}"#;
+    let plane = plane.replace(r#""rotation_deg": [90, 0, 0]"#, r#""rotation": [0.70710678, 0, 0, 0.70710678]"#);
+    let (app, spawned) = spawned(&format!(r#"{{"size": [64, 32], "camera": {camera}, "objects": [{plane}]}}"#));
+    (get(&app, spawned.camera).unwrap(), get(&app, spawned.camera).unwrap())
+}
+
+#[test]
+fn views_take_the_place_of_position_and_target() {
+    let (camera, front) = camera_of(r#"{"view": "front", "fov_y_deg": 90}"#);
+    // At nine tenths of the picture's height, with a tangent of 1.
+    assert!(front.translation.distance(Vec3::new(0.0, 0.0, 1.0 / 0.9)) < 1e-5, "{front:?}");
+    assert!(camera.projection.near() < 1.0 / 0.9 && camera.projection.near() > 0.0);
+    let (_, angles) = camera_of(r#"{"view": {"azimuth_deg": 0, "elevation_deg": 0}, "fov_y_deg": 90}"#);
+    assert_eq!(front, angles);
+    let (_, from_above) = camera_of(r#"{"view": "front", "up": [0, 0, 1]}"#);
+    assert!((*from_above.forward() - Vec3::Y).length() < 1e-6 && (*from_above.up() - Vec3::Z).length() < 1e-6);
+    // `fit` alone keeps the direction.
+    let (_, fitted) = camera_of(r#"{"position": [0, 0, 50], "fit": 0.5, "fov_y_deg": 90}"#);
+    assert!(fitted.translation.distance(Vec3::new(0.0, 0.0, 2.0)) < 1e-5, "{fitted:?}");
+    let (zoomed, place) = camera_of(r#"{"position": [0, 0, 5], "zoom": 2, "fov_y_deg": 90}"#);
+    let height: f32 = zoomed.projection.height_at(1.0);
+    assert!((height - 1.0).abs() < 1e-6 && place.translation == Vec3::new(0.0, 0.0, 5.0), "{height}");
+}
+
+#[test]
+fn loaded_models_show_both_sides_of_open_surfaces() {
+    use halfway_mesh::{Format, Normals, load_bytes};
+    use halfway_scene::{LoadedModel, MeshEntry, ObjectEntry};
+
+    let open = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let closed = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    for (text, faces, corners) in [(open, Faces::Both, 3), (closed, Faces::Front, 12)] {
+        let model = load_bytes(Format::Obj, text.as_bytes()).unwrap().into();
+        let model = LoadedModel { path: "a.obj".into(), model, material: Material::BRASS };
+        let object = ObjectEntry { normals: Normals::Auto, ..ObjectEntry::new(MeshEntry::Model(model)) };
+        let scene = SceneFile { objects: vec![object], ..SceneFile::default() };
+        let mut app = app();
+        let spawned = spawn(&scene, Path::new(""), app.world_mut()).unwrap();
+        let object = spawned.objects[0];
+        assert_eq!(get::<Faces>(&app, object), Some(faces));
+        assert_eq!(get::<Material>(&app, object), Some(Material::BRASS));
+        let mesh = get::<Mesh3d>(&app, object).unwrap();
+        let mesh = app.world().resource::<Assets<Mesh>>().get(&mesh.0).unwrap();
+        assert_eq!(mesh.positions().len(), corners, "a tetrahedron is creased");
+    }
+}

@@ -141,6 +141,12 @@ pub(super) fn parts(
         }
     }
     smooth(&mut parts, &unsmoothed, &vertices.positions);
+    if !has_groups {
+        for without in &unsmoothed {
+            let mesh = &mut parts[without.part].mesh;
+            *mesh = mesh.clone().with_normals_as_default();
+        }
+    }
     Ok(parts)
 }
 

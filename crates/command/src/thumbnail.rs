@@ -1,0 +1,74 @@
+//! `halfway thumbnail`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use halfway::output::{PictureFormat, encode_picture, write_picture};
+use halfway::prelude::*;
+use halfway::render::AdapterChoice;
+
+use crate::failure::Failure;
+use crate::input::{STANDARD, SceneInput};
+
+#[derive(Args, Debug)]
+pub(crate) struct ThumbnailArgs {
+    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl)
+    model: PathBuf,
+    /// The picture, a PNG whatever its name ends in; - writes to standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Width and height in pixels
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=2048))]
+    size: u32,
+    /// The most megabytes (10^6 bytes) of the model and of each file it refers to; memory is limited to eight times as
+    /// much and 256 MB
+    #[arg(long, value_name = "MB", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    limit: u64,
+}
+
+const MEGABYTE: u64 = 1_000_000;
+/// The most seconds of processor time.
+const SECONDS: u64 = 20;
+
+pub(crate) fn run(args: &ThumbnailArgs) -> Result<(), Failure> {
+    limit_process(8 * args.limit * MEGABYTE + 256 * MEGABYTE);
+    let mut input = SceneInput::open_model(&args.model, args.limit * MEGABYTE)?;
+    let size = UVec2::splat(args.size);
+    input.scene.size = size.to_array();
+    input.scene.samples = 4;
+    // Sides that are not seen are cheaper to draw than to find out.
+    input.scene.objects.iter_mut().for_each(|object| object.faces = Some(Faces::Both));
+    let mut app = App::new();
+    app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(AdapterChoice::cpu());
+    input.spawn(&mut app)?;
+    let picture = render_picture(&mut app)?;
+    // The system takes everything back sooner.
+    std::mem::forget(app);
+    if args.output == Path::new(STANDARD) {
+        let name = Path::new("standard output");
+        encode_picture(&picture, &mut std::io::stdout().lock(), name, PictureFormat::Png8, Encoding::Srgb)?;
+    } else {
+        write_picture(&picture, &args.output, PictureFormat::Png8, Encoding::Srgb)?;
+    }
+    Ok(())
+}
+
+/// Ends the process where it takes more memory than so many bytes, or more time than [`SECONDS`]: a file manager shows
+/// many files, and any of them may be made to harm.
+#[cfg_attr(
+    target_os = "linux",
+    expect(unsafe_code, reason = "the limits of the process are set, before it has threads")
+)]
+fn limit_process(memory: u64) {
+    #[cfg(target_os = "linux")]
+    for (resource, most) in [(libc::RLIMIT_DATA, memory), (libc::RLIMIT_CPU, SECONDS)] {
+        let limit = libc::rlimit { rlim_cur: most, rlim_max: most };
+        // SAFETY: the limit lives during the call, which reads it. A refusal, where a stricter limit holds already, is
+        // as good.
+        unsafe {
+            libc::setrlimit(resource, &raw const limit);
+        }
+    }
+    #[cfg(not(target_os = "linux"))]
+    let _ = (memory, SECONDS);
+}

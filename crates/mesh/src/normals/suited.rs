@@ -1,0 +1,157 @@
+//! Normals that suit a mesh of which nothing but its triangles is known.
+
+use glam::{Mat4, Vec3};
+
+use super::{NormalWeighting, Normals, creased_normals, face_normal};
+use crate::edges::Edges;
+use crate::numbering::Numbering;
+use crate::{Mesh, Model};
+
+/// Degrees of a bin of the histogram of angles between neighbouring triangles.
+const BIN: usize = 5;
+/// The bins of the valley: three neighbours, the lowest of them from 25° to 55°.
+const VALLEY: usize = 3;
+const LOWEST: std::ops::RangeInclusive<usize> = 25 / BIN..=55 / BIN;
+/// Edges sharper than this are folds of a faulty mesh, in degrees.
+const FOLDED: usize = 150;
+/// Beyond the valley there are so many times as many edges as in it, at least.
+const CONTRAST: usize = 8;
+/// Of so many edges one at least is sharp.
+const SCARCE: usize = 2000;
+/// Of meshes with more triangles than this only the edges at one point in eight are counted.
+const MANY: usize = 1 << 15;
+
+impl Mesh {
+    /// The normals that suit the shape: [creased](Normals::Creased) for a made part, whose faces meet in sharp edges, and
+    /// the [default weighting](NormalWeighting) for a scan or a sculpture, which is smooth all over.
+    ///
+    /// The histogram of the angles between neighbouring triangles decides, in bins of 5°. In a scan few neighbours
+    /// differ much, and the more they differ the fewer they are. In a made part the sharp edges stand apart: between
+    /// them and the small steps of its rounded faces is a valley. The valley is sought in three neighbouring bins, 15°
+    /// wide, that begin at 25° to 55°. The mesh is a made part if at least one edge in 2000 is beyond the emptiest of
+    /// them, and these are at least eight times as many as those in it; it is creased at the middle of the valley.
+    /// Edges of more than 150° do not count, since they are folds of faulty scans. In meshes of more than 32,768 triangles
+    /// one edge in eight is counted.
+    ///
+    /// ```
+    /// use halfway_mesh::{Cuboid, Icosphere, Mesh, NormalWeighting, Normals};
+    ///
+    /// let part = Mesh::from(Cuboid::default()).suited_normals();
+    /// assert!(matches!(part, Normals::Creased { .. }));
+    /// let ball = Mesh::from(Icosphere { radius: 1.0, divisions: 8 }).suited_normals();
+    /// assert_eq!(ball, Normals::Weighted(NormalWeighting::default()));
+    /// ```
+    pub fn suited_normals(&self) -> Normals {
+        let weighting = NormalWeighting::default();
+        match self.crease() {
+            Some(degrees) => Normals::Creased { angle: degrees.to_radians(), weighting },
+            None => Normals::Weighted(weighting),
+        }
+    }
+
+    /// The angle above which edges are sharp, in degrees; `None` where no edges stand apart.
+    fn crease(&self) -> Option<f32> {
+        let points = Numbering::from_positions(self.positions());
+        // Neighbours in the numbering are often neighbours in space, so the product scatters them.
+        let is_taken = |point: u32| self.triangle_count() <= MANY || point.wrapping_mul(0x9e37_79b1) >> 29 == 0;
+        let edges = Edges::at_points(points.triangles(self.indices()), is_taken);
+        let normal = |pass: u32| {
+            let triangle = self.indices().as_chunks::<3>().0[pass as usize / 3];
+            let [a, b, c] = triangle.map(|i| self.positions()[i as usize]);
+            face_normal(a, b, c).map(Vec3::as_dvec3)
+        };
+        let mut bins = [0_usize; 180 / BIN + 1];
+        for edge in edges.iter() {
+            let Some([a, b]) = edges.regular(&edge) else { continue };
+            let (Some(a), Some(b)) = (normal(a), normal(b)) else { continue };
+            let degrees = a.cross(b).length().atan2(a.dot(b)).to_degrees();
+            bins[degrees as usize / BIN] += 1;
+        }
+        let count: usize = bins.iter().sum();
+        let inside = |first: usize| bins[first..first + VALLEY].iter().sum::<usize>();
+        let first = LOWEST.min_by_key(|&first| inside(first))?;
+        let beyond: usize = bins[first + VALLEY..FOLDED / BIN].iter().sum();
+        let is_made = beyond > 0 && beyond * SCARCE >= count && beyond >= CONTRAST * inside(first);
+        is_made.then_some((BIN * first) as f32 + 0.5 * (BIN * VALLEY) as f32)
+    }
+
+    /// Whether it has a border: an edge, told apart by the positions of its ends, of one triangle only.
+    ///
+    /// ```
+    /// use halfway_mesh::{Cuboid, Mesh, Plane};
+    ///
+    /// assert!(Mesh::from(Plane::default()).is_open() && !Mesh::from(Cuboid::default()).is_open());
+    /// ```
+    pub fn is_open(&self) -> bool {
+        let points = Numbering::from_positions(self.positions());
+        let triangles = points.triangles(self.indices());
+        // Where every edge has an even number of triangles, the numbers of all ends cancel out; that they do so
+        // elsewhere is less likely than a fault of the machine.
+        let mut sum = 0_u64;
+        for &[a, b, c] in &triangles {
+            for [from, to] in [[a, b], [b, c], [c, a]] {
+                if from != to {
+                    sum ^= scattered(u64::from(from.min(to)) << 32 | u64::from(from.max(to)));
+                }
+            }
+        }
+        sum != 0 && Edges::new(triangles).iter().any(|edge| edge.passes.len() == 1)
+    }
+}
+
+/// The finalizer of `SplitMix64` (Steele, Lea and Flood 2014), in which every bit depends on all.
+fn scattered(key: u64) -> u64 {
+    let key = key.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let key = (key ^ key >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let key = (key ^ key >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    key ^ key >> 31
+}
+
+impl Model {
+    /// Gives the parts that have no normals of the file's own those that [suit](Mesh::suited_normals) all of them
+    /// together, so that a border between two materials is no crease. Parts placed by a transform are each by itself.
+    pub fn make_auto_normals(&mut self) {
+        let lack = |model: &Self, i: usize| !model.parts[i].mesh.has_given_normals();
+        let mut joined: Vec<usize> = (0..self.parts.len()).filter(|&i| lack(self, i)).collect();
+        let sum = |parts: &[usize], size: fn(&Mesh) -> usize| -> usize {
+            parts.iter().map(|&i| size(&self.parts[i].mesh)).sum()
+        };
+        let are_too_many = u32::try_from(sum(&joined, |mesh| mesh.indices().len())).is_err()
+            || u32::try_from(sum(&joined, |mesh| mesh.positions().len())).is_err();
+        let are_placed = joined.iter().any(|&i| self.parts[i].world_from_part != Mat4::IDENTITY);
+        if joined.len() < 2 || are_placed || are_too_many {
+            for i in joined.drain(..) {
+                let mesh = &mut self.parts[i].mesh;
+                *mesh = mesh.clone().with_normals(Normals::Auto).0;
+            }
+            return;
+        }
+        let (mut positions, mut indices) = (Vec::new(), Vec::new());
+        for &i in &joined {
+            let mesh = &self.parts[i].mesh;
+            let first = positions.len() as u32;
+            positions.extend_from_slice(mesh.positions());
+            indices.extend(mesh.indices().iter().map(|&index| first + index));
+        }
+        let normals = vec![Vec3::Y; positions.len()];
+        let whole = Mesh::checked(positions, normals, None, indices);
+        let Normals::Creased { angle, weighting } = whole.suited_normals() else { return };
+        let (creased, _) = creased_normals(&whole, angle, weighting);
+        let corner_normal = |corner: usize| creased.normals()[creased.indices()[corner] as usize];
+        let mut first = 0;
+        for &i in &joined {
+            let mesh = &self.parts[i].mesh;
+            let indices = mesh.indices();
+            let vertices = Numbering::new(indices.len(), |corner| {
+                let [x, y, z] = corner_normal(first + corner).to_array().map(f32::to_bits);
+                [indices[corner], x, y, z]
+            });
+            let corners = vertices.firsts.iter().map(|&corner| corner as usize);
+            let normals = corners.clone().map(|corner| corner_normal(first + corner)).collect();
+            let sources: Vec<u32> = corners.map(|corner| indices[corner]).collect();
+            let count = indices.len();
+            self.parts[i].mesh = mesh.selected(&sources, vertices.numbers).with_given_normals(normals);
+            first += count;
+        }
+    }
+}
