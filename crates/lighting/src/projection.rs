@@ -124,12 +124,13 @@ impl Projection {
     #[must_use]
     pub fn zoomed(self, zoom: f32) -> Self {
         match self {
-            Self::Perspective { fov_y, near } if zoom != 1.0 => {
+            // Not by an angle and back, which is not exact.
+            Self::Perspective { .. } if (zoom - 1.0).abs() < f32::EPSILON => self,
+            Self::Perspective { fov_y, near } => {
                 let half = (f64::from(fov_y) * 0.5).tangent() / f64::from(zoom);
                 Self::Perspective { fov_y: 2.0 * libm::atan(half) as f32, near }
             }
             Self::Orthographic { height, near, far } => Self::Orthographic { height: height / zoom, near, far },
-            perspective => perspective,
         }
     }
 
