@@ -14,19 +14,30 @@ pub(crate) fn warn_if_empty(app: &mut App, picture: &Picture) {
 
 /// Whether all pixels are the background's.
 fn shows_only(picture: &Picture, camera: Camera) -> bool {
-    let LinearRgba { red, green, blue, .. } = camera.background;
+    let (width, height) = picture.dimensions();
+    let behind = |row: u32| {
+        let LinearRgba { red, green, blue, .. } = camera.background_at((f64::from(row) + 0.5) / f64::from(height));
+        [red, green, blue]
+    };
+    let row = |pixel: usize| pixel as u32 / width.max(1);
     match picture {
         Picture::Byte(image) => {
             let byte = |channel: f32| (camera.encoding.encode(f64::from(channel.clamp(0.0, 1.0))) * 255.0).round();
-            let background = [red, green, blue].map(byte);
-            let is_background = |pixel: &[u8]| {
-                pixel.iter().zip(background).all(|(byte, expected)| (f64::from(*byte) - expected).abs() <= 1.0)
+            let is_background = |(number, pixel): (usize, &image::Rgba<u8>)| {
+                let expected = behind(row(number)).map(byte);
+                pixel.0[3] == 0
+                    || pixel.0[..3]
+                        .iter()
+                        .zip(expected)
+                        .all(|(byte, expected)| (f64::from(*byte) - expected).abs() <= 1.0)
             };
-            image.pixels().all(|pixel| is_background(&pixel.0[..3]))
+            image.pixels().enumerate().all(is_background)
         }
         Picture::Float(image) => {
-            let background = [red, green, blue];
-            image.pixels().all(|pixel| pixel.0[..3].iter().zip(background).all(|(a, b)| (a - b).abs() <= 1e-6))
+            let is_background = |(number, pixel): (usize, &image::Rgba<f32>)| {
+                pixel.0[3] == 0.0 || pixel.0[..3].iter().zip(behind(row(number))).all(|(a, b)| (a - b).abs() <= 1e-6)
+            };
+            image.pixels().enumerate().all(is_background)
         }
     }
 }

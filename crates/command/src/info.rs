@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 use halfway::mesh::{AlphaMode, LodGroup, Mesh, Model, Normals, SourceLightKind, SourceMaterial, SourceProjection};
+use halfway::prelude::Vec3;
 
 use crate::failure::Failure;
 use crate::input::ReadingArgs;
@@ -56,7 +57,7 @@ const TITLES: [&str; 9] =
 /// The columns of a model.
 fn row(file: &Path, model: &Model) -> [String; 9] {
     let vertices: usize = model.parts.iter().map(|part| part.mesh.positions().len()).sum();
-    let size = model.bounds().map_or(Default::default(), |bounds| bounds.max - bounds.min);
+    let size = model.bounds().map_or(Vec3::ZERO, |bounds| bounds.max - bounds.min);
     let open = model.parts.iter().filter(|part| part.mesh.is_open()).count();
     let mut kinds: Vec<String> = model.parts.iter().map(|part| normals(&part.mesh)).collect();
     kinds.sort();

@@ -22,6 +22,10 @@ pub(crate) struct LookArgs {
     /// and without any creases made parts [default: the scene's; auto for a model]
     #[arg(long, value_name = "auto|keep|smooth|flat|creased=DEG", value_parser = parse_normals)]
     normals: Option<Normals>,
+    /// The background: transparent, #rrggbb (#rrggbbaa with an opacity), a CSS name, or two from above to below, as
+    /// white..lightsteelblue [default: the scene's; charcoal for a model]
+    #[arg(long, value_name = "COLOR[..COLOR]|transparent", value_parser = parse_background)]
+    background: Option<Background>,
     /// The lights, which follow the camera [default: the scene's or the model's own; studio for a model without]
     #[arg(long, value_parser = rigs())]
     lights: Option<LightRig>,
@@ -39,10 +43,37 @@ impl LookArgs {
             object.faces = self.faces.or(object.faces);
             object.normals = self.normals.unwrap_or(object.normals);
         }
+        if let Some(Background { above, below, opacity }) = self.background {
+            (scene.background, scene.background_below, scene.background_opacity) = (above, below, opacity);
+        }
         if let Some(rig) = self.lights {
             scene.lights = Some(rig_lights(rig));
         }
     }
+}
+
+/// The colours of a background at the upper and at the lower edge, linear RGB, and its opacity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Background {
+    above: [f32; 3],
+    below: Option<[f32; 3]>,
+    opacity: f32,
+}
+
+fn parse_background(text: &str) -> Result<Background, String> {
+    let expected = || "expected transparent, a colour such as #102030 or white, or two as white..skyblue".to_owned();
+    let color = |text: &str| -> Result<([f32; 3], f32), String> {
+        let color = csscolorparser::parse(text.trim()).map_err(|_| expected())?;
+        Ok((LinearRgba::from(Srgba::rgb(color.r, color.g, color.b)).to_f32_array_no_alpha(), color.a))
+    };
+    let (above, below) = text.split_once("..").map_or((text, None), |(above, below)| (above, Some(below)));
+    let (above, opacity) = color(above)?;
+    let Some(below) = below else { return Ok(Background { above, below: None, opacity }) };
+    let (below, other) = color(below)?;
+    if opacity.to_bits() != other.to_bits() {
+        return Err("the two colours differ in their opacity; expected the same".to_owned());
+    }
+    Ok(Background { above, below: Some(below), opacity })
 }
 
 /// The material of a surface of which no colour is known, or only its colour.
@@ -119,6 +150,19 @@ mod tests {
             assert!(parse_color(bad).is_err(), "{bad}");
         }
         assert!(parse_color("bras").is_err_and(|error| error.contains("brass") && error.contains("red-plastic")));
+    }
+
+    #[test]
+    fn backgrounds_of_one_colour_of_two_and_of_none() {
+        let white = [1.0; 3];
+        assert_eq!(parse_background("white"), Ok(Background { above: white, below: None, opacity: 1.0 }));
+        assert_eq!(parse_background("transparent"), Ok(Background { above: [0.0; 3], below: None, opacity: 0.0 }));
+        let two = Background { above: white, below: Some([1.0, 0.0, 0.0]), opacity: 1.0 };
+        assert_eq!(parse_background("#fff..red"), Ok(two));
+        assert!(parse_background("#ffffff80").is_ok_and(|half| (half.opacity - 0.5).abs() < 0.01));
+        for bad in ["", "..", "white..", "nocolour", "white..#ff000080"] {
+            assert!(parse_background(bad).is_err(), "{bad}");
+        }
     }
 
     #[test]

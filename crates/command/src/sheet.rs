@@ -73,7 +73,7 @@ impl Views {
 fn share_scale(cameras: &mut [(Camera, Transform)]) {
     let height = |camera: &Camera| match camera.projection {
         Projection::Orthographic { height, .. } => Some(height),
-        _ => None,
+        Projection::Perspective { .. } => None,
     };
     let most = cameras.iter().filter_map(|(camera, _)| height(camera)).fold(0.0, f32::max);
     for (camera, _) in cameras {

@@ -249,14 +249,15 @@ impl Projection {
         // The shift is counted in heights, which become smaller.
         let zoomed = |film: Film| Film { shift: film.shift.map(|shift| shift * zoom), ..film };
         match self {
-            Self::Perspective { fov_y, near, film } if zoom != 1.0 => {
+            // Not by an angle and back, which is not exact.
+            Self::Perspective { .. } if (zoom - 1.0).abs() < f32::EPSILON => self,
+            Self::Perspective { fov_y, near, film } => {
                 let half = (f64::from(fov_y) * 0.5).tangent() / f64::from(zoom);
                 Self::Perspective { fov_y: 2.0 * libm::atan(half) as f32, near, film: zoomed(film) }
             }
             Self::Orthographic { height, near, far, film } => {
                 Self::Orthographic { height: height / zoom, near, far, film: zoomed(film) }
             }
-            perspective => perspective,
         }
     }
 

@@ -180,7 +180,7 @@ mod framing {
             let [fit, zoom] = [self.fit, self.zoom].map(|x| if x > 0.0 { f64::from(x) } else { 1.0 });
             let (place, projection) = match camera.projection {
                 Projection::Orthographic { .. } => orthographic(&points, axes, aspect, fit * zoom),
-                projection => {
+                projection @ Projection::Perspective { .. } => {
                     let tan = (0.5 * projection.height_at(1.0_f64)) * fit;
                     let fitted = TightFit::new(&points, axes, [tan * aspect, tan]);
                     let least = fitted.center.abs().max_element() * 1e-5;

@@ -18,8 +18,10 @@ const FOLDED: usize = 150;
 const CONTRAST: usize = 8;
 /// Of so many edges one at least is sharp.
 const SCARCE: usize = 2000;
-/// Of meshes with more triangles than this only the edges at one point in eight are counted.
-const MANY: usize = 1 << 15;
+/// Of meshes with twice as many triangles as this half of the edges are counted, and so on.
+const COUNTED: usize = 1 << 13;
+/// Of some of the edges at least so many are sharp, since fewer may be so by chance.
+const CHANCE: usize = 24;
 
 impl Mesh {
     /// The normals that suit the shape: [creased](Normals::Creased) for a made part, whose faces meet in sharp edges, and
@@ -30,8 +32,8 @@ impl Mesh {
     /// them and the small steps of its rounded faces is a valley. The valley is sought in three neighbouring bins, 15°
     /// wide, that begin at 25° to 55°. The mesh is a made part if at least one edge in 2000 is beyond the emptiest of
     /// them, and these are at least eight times as many as those in it; it is creased at the middle of the valley.
-    /// Edges of more than 150° do not count, since they are folds of faulty scans. In meshes of more than 32,768 triangles
-    /// one edge in eight is counted.
+    /// Edges of more than 150° do not count, since they are folds of faulty scans. Of meshes of more than 16,384 triangles
+    /// only the edges at some of the points are counted, 12,000 at least, and 24 of them have to be sharp.
     ///
     /// ```
     /// use halfway_mesh::{Cuboid, Icosphere, Mesh, NormalWeighting, Normals};
@@ -52,8 +54,10 @@ impl Mesh {
     /// The angle above which edges are sharp, in degrees; `None` where no edges stand apart.
     fn crease(&self) -> Option<f32> {
         let points = Numbering::from_positions(self.positions());
+        // The share that is counted is one in a power of two.
+        let halvings = (self.triangle_count() / COUNTED).checked_ilog2().unwrap_or(0).min(20);
         // Neighbours in the numbering are often neighbours in space, so the product scatters them.
-        let is_taken = |point: u32| self.triangle_count() <= MANY || point.wrapping_mul(0x9e37_79b1) >> 29 == 0;
+        let is_taken = |point: u32| halvings == 0 || point.wrapping_mul(0x9e37_79b1) >> (32 - halvings) == 0;
         let edges = Edges::at_points(points.triangles(self.indices()), is_taken);
         let normal = |pass: u32| {
             let triangle = self.indices().as_chunks::<3>().0[pass as usize / 3];
@@ -71,7 +75,8 @@ impl Mesh {
         let inside = |first: usize| bins[first..first + VALLEY].iter().sum::<usize>();
         let first = LOWEST.min_by_key(|&first| inside(first))?;
         let beyond: usize = bins[first + VALLEY..FOLDED / BIN].iter().sum();
-        let is_made = beyond > 0 && beyond * SCARCE >= count && beyond >= CONTRAST * inside(first);
+        let least = if halvings == 0 { 1 } else { CHANCE };
+        let is_made = beyond >= least && beyond * SCARCE >= count && beyond >= CONTRAST * inside(first);
         is_made.then_some((BIN * first) as f32 + 0.5 * (BIN * VALLEY) as f32)
     }
 

@@ -397,8 +397,8 @@ fn files_and_streams_have_limits() {
         }
     }
     // Files that the model refers to have the same limit.
-    let path = folder.write("paint.obj", &format!("mtllib paint.mtl\n{TRIANGLE}"));
-    folder.write("paint.mtl", &format!("newmtl a\n#{}\n", "x".repeat(200)));
+    let path = folder.write("paint.obj", format!("mtllib paint.mtl\n{TRIANGLE}"));
+    folder.write("paint.mtl", format!("newmtl a\n#{}\n", "x".repeat(200)));
     let options = LoadOptions { limit: Some(100), ..LoadOptions::default() };
     let loaded = load_with(&path, options, &mut |_| ControlFlow::Continue(()));
     let said = match loaded {

@@ -1,5 +1,7 @@
 //! Normals that suit a mesh without any: creases in made parts, none in scans.
 
+use std::fmt::Write as _;
+
 use glam::Vec3;
 use halfway_mesh::{Cuboid, Format, Icosphere, Mesh, NormalWeighting, Normals, Plane, Teapot, load_bytes};
 
@@ -86,9 +88,9 @@ fn borders_of_parts_are_no_creases() {
     let (mut vertices, mut faces) = (String::new(), [String::new(), String::new()]);
     for i in 0..16_u32 {
         let (sin, cos) = (std::f32::consts::TAU * i as f32 / 16.0).sin_cos();
-        vertices += &format!("v {cos} {sin} 0\nv {cos} {sin} 1\n");
+        writeln!(vertices, "v {cos} {sin} 0\nv {cos} {sin} 1").unwrap();
         let [a, b] = [2 * i + 1, 2 * ((i + 1) % 16) + 1];
-        faces[usize::from(i >= 8)] += &format!("f {a} {b} {} {}\n", b + 1, a + 1);
+        writeln!(faces[usize::from(i >= 8)], "f {a} {b} {} {}", b + 1, a + 1).unwrap();
     }
     let ring = |from: u32| (0..16).map(|i| (2 * i + 1 + from).to_string()).collect::<Vec<_>>();
     let (floor, lid) = (ring(0).into_iter().rev().collect::<Vec<_>>(), ring(1));

@@ -31,7 +31,7 @@ pub use contact_sheet::ContactSheet;
 pub use encode::to_bytes;
 pub use error::OutputError;
 pub use format::PictureFormat;
-pub use partial::write_text;
+pub use partial::{write_bytes, write_text};
 pub use picture::{SavePicture, encode_picture, write_picture};
 pub use quantities::{check_quantity_file, write_quantities};
 

@@ -12,8 +12,16 @@ use super::OutputError;
 /// # Errors
 /// The error that kept the file from being written; an existing file is then unchanged.
 pub fn write_text(file: &Path, text: &str) -> Result<(), OutputError> {
+    write_bytes(file, text.as_bytes())
+}
+
+/// [`write_text`] of any bytes, such as a picture that was encoded by other means.
+///
+/// # Errors
+/// As [`write_text`].
+pub fn write_bytes(file: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let (partial, mut writer) = Partial::create(file)?;
-    writer.write_all(text.as_bytes()).and_then(|()| writer.flush()).map_err(|source| OutputError::io(file, source))?;
+    writer.write_all(bytes).and_then(|()| writer.flush()).map_err(|source| OutputError::io(file, source))?;
     // Closed before it is moved.
     drop(writer);
     partial.keep()
