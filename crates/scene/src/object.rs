@@ -3,7 +3,6 @@
 use halfway_lighting::{Faces, Range, Reflectance, Shading, Tolerance, VertexColors};
 use halfway_mesh::Normals;
 
-use crate::animation::{Animate, TrackEntry};
 use crate::check::{Check, Limits};
 use crate::displacement::DisplacementEntry;
 use crate::keys::{Object, keys};
@@ -11,6 +10,7 @@ use crate::maps::MapsEntry;
 use crate::material::MaterialEntry;
 use crate::mesh::MeshEntry;
 use crate::solid::SolidEntry;
+use crate::track::{Animate, TrackEntry};
 use crate::transform::TransformEntry;
 
 keys! {
