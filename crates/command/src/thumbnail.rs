@@ -30,7 +30,7 @@ pub(crate) struct ThumbnailArgs {
 
 const MEGABYTE: u64 = 1_000_000;
 /// The most seconds of processor time.
-const SECONDS: u64 = 20;
+const SECONDS: u64 = 10;
 
 pub(crate) fn run(args: &ThumbnailArgs) -> Result<(), Failure> {
     limit_process(8 * args.limit * MEGABYTE + 256 * MEGABYTE);

@@ -38,6 +38,9 @@ pub(crate) struct VerifyArgs {
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     args.drawing.input.without_picture()?;
     let mut input = SceneInput::read(&args.drawing)?;
+    if input.remove_what_is_laid_over() {
+        eprintln!("note: judged without lines along edges and before an opaque background of one colour");
+    }
     if let Some(file) = &args.picture {
         return judge_picture(args, input, file);
     }

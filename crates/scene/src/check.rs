@@ -1,5 +1,6 @@
 //! The checks that every value of a scene goes through, and the path to the one that fails.
 
+use bevy_math::DVec4;
 use halfway_lighting::Range;
 
 /// A value that the format does not allow: its path inside the scene, and the expected values.
@@ -74,6 +75,16 @@ pub(crate) fn direction(key: &str, v: &[f32; 3]) -> Check {
         return Err(KeyProblem::new(key, "is [0, 0, 0]; expected a direction, of any length above 0"));
     }
     Ok(())
+}
+
+/// A rotation, whose length may differ from 1 as that of one printed with two digits does; else what is wrong.
+pub(crate) fn unit_rotation(rotation: [f32; 4]) -> Result<(), String> {
+    const SLACK: f64 = 0.02;
+    let length = DVec4::from(rotation.map(f64::from)).length();
+    if (length - 1.0).abs() <= SLACK {
+        return Ok(());
+    }
+    Err(format!("has the length {length:.3}; expected a quaternion [x, y, z, w] of length 1"))
 }
 
 /// `value` if `holds`, else what was expected instead.

@@ -34,10 +34,11 @@ mod schema;
 mod solid;
 mod spawn;
 mod surface;
+mod track;
 mod transform;
 mod view;
 
-pub use animation::{AnimatedKey, AnimationPlugin, AnimationSystems, Interpolation, KeyFrame, SceneTime, TrackEntry};
+pub use animation::{AnimationPlugin, AnimationSystems, SceneTime};
 pub use defaults::{default_lights, framing_camera, rig_lights};
 pub use displacement::DisplacementEntry;
 pub use edges::EdgesEntry;
@@ -59,5 +60,6 @@ pub use surface::{
     BezierEntry, CapsuleEntry, ConeMeshEntry, CylinderEntry, DiscEntry, EllipsoidEntry, HeightFieldEntry,
     HyperboloidEntry, HyperboloidSheetEntry, ParaboloidEntry, PolynomialEntry, SurfaceEntry, TorusEntry,
 };
+pub use track::{AnimatedKey, Interpolation, KeyFrame, TrackEntry};
 pub use transform::{TransformEntry, TransformMatrix, TransformParts};
 pub use view::{CameraEntry, IntrinsicsEntry};

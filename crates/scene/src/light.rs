@@ -2,17 +2,18 @@
 
 use std::ops::Bound::Included;
 
+use bevy_color::LinearRgba;
 use halfway_lighting::{Attenuation, HemisphereLight, PointLight, Range};
 use serde::de::{Deserializer, Error};
 use serde::ser::Serializer;
 use serde_json::{Map, Value, json};
 
-use crate::animation::{Animate, TrackEntry};
 use crate::check::{Check, KeyProblem, Limits, Within, direction, test};
 use crate::described;
 use crate::entry::Entry;
 use crate::keys::{CheckKeys, Fill, Key, Keys, Object, Presence, Visit, Words, keys, keys_schema, words};
 use crate::named::NameOrIndex;
+use crate::track::{Animate, AnimatedKey, TrackEntry, three};
 
 /// A light. In JSON, the keys of `cone` and `light` stand beside the others, as far as the kind of light has them
 /// ([`LightKind`]): other keys are refused in a file, and other fields here are ignored.
@@ -190,7 +191,7 @@ impl LightKind {
         if self == Self::Hemisphere { &["kind", "attach", "name", "animation"] } else { &SHARED }
     }
 
-    pub(crate) fn has(self, key: &str) -> bool {
+    fn has(self, key: &str) -> bool {
         self.keys().contains(&key) || self.shared_keys().contains(&key)
     }
 }
@@ -373,5 +374,41 @@ impl Object for LightEntry {
             return Err(KeyProblem::new("attenuation", "is [0, 0, 0]; expected at least one number above 0"));
         }
         Ok(())
+    }
+}
+
+impl Animate for LightEntry {
+    fn count(&self, key: AnimatedKey) -> Result<usize, String> {
+        let of_lights = [
+            AnimatedKey::Position,
+            AnimatedKey::Direction,
+            AnimatedKey::Ambient,
+            AnimatedKey::Diffuse,
+            AnimatedKey::Specular,
+            AnimatedKey::Sky,
+            AnimatedKey::Ground,
+        ];
+        if of_lights.contains(&key) && self.kind.has(key.name()) {
+            let has_w = key == AnimatedKey::Position && self.kind == LightKind::Homogeneous;
+            return Ok(key.count() + usize::from(has_w));
+        }
+        let own: Vec<&str> = of_lights.map(AnimatedKey::name).into_iter().filter(|name| self.kind.has(name)).collect();
+        Err(format!("expected a key of this light: {}", own.join(", ")))
+    }
+
+    fn set(&mut self, key: AnimatedKey, value: [f32; 4]) {
+        let [red, green, blue, _] = value;
+        let color = LinearRgba::rgb(red, green, blue);
+        match key {
+            AnimatedKey::Position if self.kind == LightKind::Homogeneous => self.position = value,
+            AnimatedKey::Position => self.position[..3].copy_from_slice(&three(value)),
+            AnimatedKey::Direction => self.cone.direction = three(value),
+            AnimatedKey::Ambient => self.light.ambient = color,
+            AnimatedKey::Diffuse => self.light.diffuse = color,
+            AnimatedKey::Specular => self.light.specular = color,
+            AnimatedKey::Sky => self.hemisphere.sky = color,
+            AnimatedKey::Ground => self.hemisphere.ground = color,
+            _ => {}
+        }
     }
 }

@@ -12,7 +12,7 @@ use halfway_mesh::{
 
 use crate::check::{Check, KeyProblem, Limits, Within};
 use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, Words, keys, words};
-use crate::surface::{SURFACES, SurfaceEntry};
+use crate::surface::{LENGTH, SURFACES, SurfaceEntry};
 
 /// The shape of an object: an object with exactly one of these keys.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,10 +129,6 @@ impl Object for MeshEntry {
 }
 
 const KNOWN_MODELS: &str = "expected a file that ends in .smf, .obj, .gltf, .glb, .ply or .stl";
-
-/// A length of a surface.
-pub(crate) const LENGTH: Limits =
-    Limits::Numbers(Range::new(Included(1e-30), Included(1e30), "a length from 1e-30 to 1e30"));
 
 keys! {
     /// The value of `{"uv_sphere": …}`.

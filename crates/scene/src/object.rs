@@ -3,7 +3,6 @@
 use halfway_lighting::{Faces, Range, Reflectance, Shading, Tolerance, VertexColors};
 use halfway_mesh::Normals;
 
-use crate::animation::{Animate, TrackEntry};
 use crate::check::{Check, Limits};
 use crate::displacement::DisplacementEntry;
 use crate::edges::EdgesEntry;
@@ -12,6 +11,7 @@ use crate::maps::MapsEntry;
 use crate::material::MaterialEntry;
 use crate::mesh::MeshEntry;
 use crate::solid::SolidEntry;
+use crate::track::{Animate, TrackEntry};
 use crate::transform::TransformEntry;
 
 keys! {

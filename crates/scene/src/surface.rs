@@ -1,5 +1,6 @@
 //! Surfaces by formula in scene files, each with its name, its lengths and how finely it is cut into triangles.
 
+use std::ops::Bound::Included;
 use std::path::{Path, PathBuf};
 
 use bevy_math::{DVec3, Vec3};
@@ -12,8 +13,10 @@ use halfway_texture::TexelMeaning;
 
 use crate::check::{Check, KeyProblem, Limits};
 use crate::keys::{Fill, Key, Object, Visit, keys};
-use crate::mesh::LENGTH;
 
+/// A length of a surface.
+pub(crate) const LENGTH: Limits =
+    Limits::Numbers(Range::new(Included(1e-30), Included(1e30), "a length from 1e-30 to 1e30"));
 const ROWS: Limits = Limits::Counts(1, Tessellation::MAX_ROWS);
 const COLUMNS: Limits = Limits::Counts(1, Tessellation::MAX_COLUMNS);
 const CHORD_ERROR: Limits = Limits::Numbers(Range::POSITIVE);
@@ -100,9 +103,12 @@ macro_rules! surfaces {
                     $(Self::$kind(entry) => {
                         let make: fn(&$entry, &Path) -> Result<Box<dyn ParametricSurface>, SurfaceFault> = $make;
                         let &$entry { rows, columns, chord_error, .. } = entry;
-                        let by_count = Tessellation::Count { rows, columns };
+                        let surface = make(entry, base_dir)?;
+                        // A height field has a cell for each of its samples' at least, which an image may have many of.
+                        let least = if stringify!($name) == "height_field" { surface.least_counts() } else { [0; 2] };
+                        let by_count = Tessellation::Count { rows: rows.max(least[0]), columns: columns.max(least[1]) };
                         let fineness = chord_error.map_or(by_count, |error| Tessellation::ChordError(error.into()));
-                        Ok((make(entry, base_dir)?, fineness))
+                        Ok((surface, fineness))
                     })*
                 }
             }

@@ -4,9 +4,10 @@ use bevy_math::{DVec4, Mat4, Quat, Vec3};
 use bevy_transform::components::Transform;
 use serde_json::{Map, Value, json};
 
-use crate::check::{Check, KeyProblem, Limits, Within};
+use crate::check::{Check, KeyProblem, Limits, Within, unit_rotation};
 use crate::entry::Entry;
 use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, keys};
+use crate::track::{Animate, AnimatedKey, three};
 
 /// Where something is: in parts, or as a matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,18 +45,8 @@ keys! {
 
 impl Object for TransformParts {
     fn check_whole(&self) -> Check {
-        let length = DVec4::from(self.rotation.map(f64::from)).length();
-        if (length - 1.0).abs() <= Self::ROTATION_SLACK {
-            return Ok(());
-        }
-        let message = format!("has the length {length:.3}; expected a quaternion [x, y, z, w] of length 1");
-        Err(KeyProblem::new("rotation", message))
+        unit_rotation(self.rotation).map_err(|message| KeyProblem::new("rotation", message))
     }
-}
-
-impl TransformParts {
-    /// The allowed distance of a rotation's length from 1: that of one printed with two digits is within it.
-    const ROTATION_SLACK: f64 = 0.02;
 }
 
 impl Object for TransformMatrix {
@@ -152,6 +143,28 @@ impl Object for TransformEntry {
         match self {
             Self::Parts(parts) => parts.check_whole(),
             Self::Matrix(matrix) => matrix.check_whole(),
+        }
+    }
+}
+
+impl Animate for TransformEntry {
+    fn count(&self, key: AnimatedKey) -> Result<usize, String> {
+        match (key, self) {
+            (AnimatedKey::Translation | AnimatedKey::Rotation | AnimatedKey::Scale, Self::Parts(_)) => Ok(key.count()),
+            (AnimatedKey::Translation | AnimatedKey::Rotation | AnimatedKey::Scale, Self::Matrix(_)) => {
+                Err("the transform is a matrix; expected one with translation, rotation and scale".to_owned())
+            }
+            _ => Err("expected a key of an object: translation, rotation or scale".to_owned()),
+        }
+    }
+
+    fn set(&mut self, key: AnimatedKey, value: [f32; 4]) {
+        let Self::Parts(parts) = self else { return };
+        match key {
+            AnimatedKey::Translation => parts.translation = three(value),
+            AnimatedKey::Rotation => parts.rotation = value,
+            AnimatedKey::Scale => parts.scale = three(value),
+            _ => {}
         }
     }
 }

@@ -9,10 +9,10 @@ use halfway_lighting::{
     Viewer,
 };
 
-use crate::animation::{Animate, TrackEntry};
 use crate::check::{Check, KeyProblem, Limits, direction, in_range};
 use crate::described;
 use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, Words, keys, named_words, words};
+use crate::track::{Animate, AnimatedKey, FIELD_OF_VIEW, TrackEntry, three};
 
 words! {
     /// `output`: the encoding of the channels of an 8- or 16-bit picture.
@@ -178,7 +178,7 @@ keys! {
         /// The direction that is up in the picture; not along the line of sight. Any length above 0.
         up: [f32; 3] = [0.0, 1.0, 0.0],
         /// Vertical field of view, in degrees above 0 and below 180.
-        fov_y_deg: f32 = 45.0 => Limits::Numbers(CameraEntry::FIELD_OF_VIEW),
+        fov_y_deg: f32 = 45.0 => Limits::Numbers(FIELD_OF_VIEW),
         /// Distance of the near plane, above 0. Of an orthographic camera any number: below 0 it shows what is behind
         /// itself, too; left out, it is 0 then.
         near: f32 = Projection::default().near(),
@@ -272,9 +272,6 @@ impl Object for CameraEntry {
 }
 
 impl CameraEntry {
-    /// The range of `fov_y_deg`.
-    pub(crate) const FIELD_OF_VIEW: Range = Range::new(Excluded(0.0), Excluded(180.0), "degrees above 0 and below 180");
-
     /// Checks that its keys are those of one kind of projection.
     fn check_projection(&self) -> Check {
         let default = Self::default();
@@ -369,5 +366,27 @@ impl CameraEntry {
         }
         let right = right.normalize();
         Some([right, back.cross(right), back])
+    }
+}
+
+impl Animate for CameraEntry {
+    fn count(&self, key: AnimatedKey) -> Result<usize, String> {
+        let zoom = if self.height.is_some() { AnimatedKey::Height } else { AnimatedKey::FovYDeg };
+        match key {
+            AnimatedKey::Position | AnimatedKey::Target | AnimatedKey::Up => Ok(key.count()),
+            _ if key == zoom && self.intrinsics.is_none() => Ok(key.count()),
+            _ => Err(format!("expected a key of this camera: position, target, up or {}", zoom.name())),
+        }
+    }
+
+    fn set(&mut self, key: AnimatedKey, value: [f32; 4]) {
+        match key {
+            AnimatedKey::Position => self.position = three(value),
+            AnimatedKey::Target => self.target = three(value),
+            AnimatedKey::Up => self.up = three(value),
+            AnimatedKey::FovYDeg => self.fov_y_deg = value[0],
+            AnimatedKey::Height => self.height = Some(value[0]),
+            _ => {}
+        }
     }
 }

@@ -3,6 +3,7 @@
 //! Most values are ordinary, so that most scenes show something; each may be extreme, and any key may be left out.
 
 mod appearance;
+mod camera;
 mod environment;
 mod files;
 mod light;
@@ -25,7 +26,7 @@ pub fn scene(seed: u64, number: u64) -> Value {
     let lights = light::lights(random, unit, objects.len());
     let mut scene = Object::new();
     scene.set("size", json!([random.u64(64..=128), random.u64(64..=128)]));
-    scene.set("camera", positions::camera(random, unit));
+    scene.set("camera", camera::camera(random, unit));
     scene.set("lights", lights);
     scene.set("objects", objects.into());
     scene.perhaps(random, 50, "background", |random| appearance::color(random, 0.3));

@@ -35,7 +35,8 @@ fn every_surface_is_the_one_of_its_name() {
     let points = [[1.0, -1.0], [1.0, -1.0]].concat().into_iter().zip([-1.0, -1.0, 1.0, 1.0]);
     let patch = BezierPatch::new(2, points.map(|(x, z)| DVec3::new(x, 0.0, z)).collect()).unwrap();
     let hill = HeightField::new(2.0, 4.0, 2, vec![0.0, 0.5, 1.0, 1.5]).unwrap();
-    let all: [(&str, Mesh); 14] = [
+    let waves = HeightField::new(2.0, 2.0, 2, vec![0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0]).unwrap();
+    let all: [(&str, Mesh); 15] = [
         (r#"{"icosphere": {"divisions": 3}}"#, Icosphere::new(1.0, 3).into()),
         (
             r#"{"ellipsoid": {"radii": [1, 2, 3], "chord_error": 0.01}}"#,
@@ -64,6 +65,11 @@ fn every_surface_is_the_one_of_its_name() {
         (
             r#"{"height_field": {"size": [2, 4], "amount": 1.5, "path": "hill.png", "rows": 3, "columns": 5}}"#,
             hill.mesh(cut(3, 5)).unwrap(),
+        ),
+        // As fine as its samples, whatever is asked for.
+        (
+            r#"{"height_field": {"heights": [[0, 1], [1, 0], [0, 0], [1, 1]], "rows": 1, "columns": 1}}"#,
+            waves.mesh(cut(3, 1)).unwrap(),
         ),
     ];
     let dir = std::env::temp_dir().join(format!("halfway-scene-surfaces-{}", std::process::id()));
