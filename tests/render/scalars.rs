@@ -32,7 +32,7 @@ fn a_pixel_has_the_colour_of_its_number() {
         let picture = shown(&mut stage, &scalars);
         for x in 5..45 {
             let number = (f64::from(x) + 0.5 - 25.0) / 10.0;
-            let expected = linear(map.at((number + 1.0) / 2.0));
+            let expected = linear(map.at(0.5 * number + 0.5));
             let found = picture.get_pixel(x, 20).0;
             // A byte of the map's, and the step to the next of its 1000 texels.
             let same = (0..3).all(|c| (found[c] - expected[c]).abs() < 0.012);

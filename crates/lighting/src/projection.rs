@@ -457,6 +457,11 @@ impl<T: Real> Lens<T> {
         if self.is_parallel { -depth } else { depth.recip() }
     }
 
+    /// The depth whose [`unfitted_nearness`](Self::unfitted_nearness) this is.
+    pub fn depth_at(&self, unfitted_nearness: T) -> T {
+        if self.is_parallel { -unfitted_nearness } else { unfitted_nearness.recip() }
+    }
+
     /// How far the [`unfitted_nearness`](Self::unfitted_nearness) of a vertex is off where its depth is off by one part of
     /// the `terms` that it is the sum of, and a depth buffer that spans `depths` by one part of its values.
     pub fn nearness_error(&self, depth: T, terms: T, depths: T) -> T {

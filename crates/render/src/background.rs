@@ -90,6 +90,6 @@ mod tests {
                 assert!((found - expected).abs() < 1e-6, "{share}: {found} instead of {expected}");
             }
         }
-        assert_eq!(over([0.0; 3], 1.0, LinearRgba::BLACK, LinearRgba::NONE), [0.0; 4]);
+        assert_eq!(over([0.0; 3], 1.0, LinearRgba::BLACK, LinearRgba::NONE).map(f32::to_bits), [0; 4]);
     }
 }

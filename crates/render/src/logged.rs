@@ -79,6 +79,8 @@ pub(crate) fn may_be_empty(report: Res<FrameReport>) -> bool {
     report.errors.is_empty() && (report.visible == 0 || report.lights == 0)
 }
 
+const NO_LINES: &str = "a window does not show the lines of `Edges`; pictures that are taken do (`take_picture`)";
+
 /// Logs once that a window does not show the lines of [`Edges`].
 pub(crate) fn log_edges(
     edges: Query<(), With<Edges>>,
@@ -90,9 +92,8 @@ pub(crate) fn log_edges(
     let is_window = canvas.is_some() || surface.is_some();
     #[cfg(not(feature = "wgpu"))]
     let is_window = canvas.is_some();
-    const MESSAGE: &str = "a window does not show the lines of `Edges`; pictures that are taken do (`take_picture`)";
-    if is_window && !edges.is_empty() && logged.is_new(MESSAGE) {
-        log::warn!("{MESSAGE}");
+    if is_window && !edges.is_empty() && logged.is_new(NO_LINES) {
+        log::warn!("{NO_LINES}");
     }
 }
 

@@ -71,8 +71,7 @@ type MeshQuery<'w, 's> = Query<
 >;
 
 pub(crate) fn select(
-    objects: MeshQuery,
-    cameras: Query<&Edges, With<Camera>>,
+    (objects, cameras): (MeshQuery, Query<&Edges, With<Camera>>),
     shown: Shown,
     meshes: Res<Assets<Mesh>>,
     mut view: ResMut<View>,

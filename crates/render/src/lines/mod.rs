@@ -200,7 +200,7 @@ impl Drawing<'_> {
         let at = line.segment.from.lerp(line.segment.to, along);
         let pixel = at.floor().as_ivec2().clamp(IVec2::ZERO, self.size().as_ivec2() - 1);
         let nearness = line.nearness[0] + along * (line.nearness[1] - line.nearness[0]);
-        let depth = if self.lens().w(2.0) == 1.0 { -nearness } else { nearness.recip() };
+        let depth = self.lens().depth_at(nearness);
         // What a quarter of a pixel can hide.
         let depth = depth - 0.25 * self.lens().pixel_size(depth, self.size().as_dvec2().to_array());
         AROUND.into_iter().any(|step| {

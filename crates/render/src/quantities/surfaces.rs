@@ -2,7 +2,7 @@
 
 use crate::quantities::redrawn::{self, Shows, numbers};
 use bevy_ecs::prelude::*;
-use bevy_math::{DAffine3, DMat3, DVec2, DVec3, UVec2};
+use bevy_math::{DAffine3, DMat3, DVec2, DVec3, UVec2, Vec3A};
 use bevy_platform::collections::HashMap;
 use bevy_transform::components::GlobalTransform;
 use halfway_asset::Assets;
@@ -254,7 +254,7 @@ impl SeenObject {
 /// An object's transform, as exactly as it is known.
 pub(crate) fn world_from_model(transform: &GlobalTransform) -> DAffine3 {
     let (matrix, translation) = (transform.affine().matrix3, transform.affine().translation);
-    let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|column| column.as_dvec3());
+    let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(Vec3A::as_dvec3);
     DAffine3 { matrix3: DMat3::from_cols(columns[0], columns[1], columns[2]), translation: translation.as_dvec3() }
 }
 
