@@ -117,7 +117,7 @@ fn object(random: &mut Rng, unit: f64) -> Value {
     object.set("mesh", mesh::mesh(random, unit));
     object.perhaps(random, 90, "transform", |random| positions::transform(random, unit));
     object.perhaps(random, 20, "normals", |random| {
-        random.choose(&["keep", "face", "uniform", "area", "angle", "max"]).into()
+        random.choose(&["keep", "face", "uniform", "area", "angle", "max", "auto"]).into()
     });
     object.perhaps(random, 85, "material", appearance::material);
     object.perhaps(random, 15, "back_material", appearance::material);
