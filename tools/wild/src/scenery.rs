@@ -118,11 +118,11 @@ fn object(random: &mut Rng, unit: f64) -> Value {
     object.set("mesh", mesh::mesh(random, unit));
     object.perhaps(random, 90, "transform", |random| positions::transform(random, unit));
     object.perhaps(random, 24, "normals", |random| {
-        let words = ["keep", "face", "uniform", "area", "angle", "max"];
+        let words = ["keep", "face", "uniform", "area", "angle", "max", "auto"];
         if random.percent(80) {
             return random.choose(&words).into();
         }
-        json!({ "creased": { "angle_deg": short(random.between(0.0, 90.0)), "weighting": random.choose(&words[2..]) } })
+        json!({ "creased": { "angle_deg": short(random.between(0.0, 90.0)), "weighting": random.choose(&words[2..6]) } })
     });
     if object.0.get("transform").is_none_or(|transform| transform.get("matrix").is_none()) {
         object.perhaps(random, 6, "animation", |random| positions::animation(random, unit));

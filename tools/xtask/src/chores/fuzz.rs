@@ -19,7 +19,7 @@ const MOST_TIME: &str = "-timeout=60";
 /// The folder of files in memory on Linux.
 const MEMORY: &str = "/dev/shm";
 
-/// Feed the readers of model, scene and image files with generated inputs, and check that they do not fail
+/// Feed the readers of model, scene and image files with generated inputs, which must not fail them
 ///
 /// Nothing may panic, overflow, hang, or take memory out of proportion, and the results must be valid. A target for
 /// each format of models, one for scene files (scene), for images of all formats (image), for material libraries (mtl)
