@@ -69,6 +69,32 @@ fn frames_become_an_animation_or_a_file_each() {
     assert!(!folder.join("frame-0009.png").exists() && !folder.join("frame-0012.png").exists());
 }
 
+#[test]
+fn animations_are_played_and_cameras_chosen() {
+    let folder = folder("key_frames");
+    let scene = asset("examples/scenes/key_frames.json");
+    let draw = |name: &str, more: &[&str]| {
+        let common = ["render", &scene, "--size", "48x27", "-o", name];
+        succeeds(&folder, &[&common[..], more].concat());
+    };
+    let read = |name: &str| fs::read(folder.join(name)).expect("the picture was written");
+    for (name, by) in [("drawn", &[][..]), ("exact", &["--reference", "--supersample", "1"])] {
+        draw(&format!("{name}-{{}}.png"), &[&["--frames", "0..3", "--fps", "2"], by].concat());
+        draw("moment.png", &[&["--time", "0.5"], by].concat());
+        let frames = [0, 1, 2].map(|number| read(&format!("{name}-{number:04}.png")));
+        assert!(frames[1] == read("moment.png"), "{name}: frame 1 is that of half a second");
+        assert!(frames[0] != frames[1] && frames[1] != frames[2], "{name}: something moves");
+        let start = format!("start_{name}.png");
+        draw(&start, by);
+        assert!(frames[0] == read(&start), "{name}: without a time it is the first moment");
+    }
+    draw("walk.png", &["--camera", "walk"]);
+    draw("plan.png", &["--camera", "plan"]);
+    draw("second.png", &["--camera", "1"]);
+    assert!(read("walk.png") == read("start_drawn.png") && read("plan.png") == read("second.png"));
+    assert_ne!(read("walk.png"), read("plan.png"));
+}
+
 // As promised by docs/many-machines.md.
 #[test]
 fn two_processes_draw_the_bytes_of_one() {
