@@ -2,15 +2,15 @@
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use halfway::lighting::Choices;
 use halfway::prelude::{Intensity, Reflectance, Shading, UVec2};
 use halfway::record::parse_size;
 
 use crate::adapters::AdapterArgs;
+use crate::choices::{choice, values};
 use crate::edges::EdgeArgs;
 use crate::framing::FramingArgs;
-use crate::input::InputArgs;
 use crate::look::LookArgs;
+use crate::reading::InputArgs;
 use crate::tolerance::ToleranceArgs;
 
 /// How the scene is drawn; options override the scene file.
@@ -75,18 +75,6 @@ pub(crate) struct SizeArgs {
     /// Width and height in pixels, such as 1280x720 [default: the scene's; 1280x720 for a model]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) size: Option<UVec2>,
-}
-
-/// The choices of a type as values of an option, with their meanings as help.
-pub(crate) fn values<T: Choices>() -> impl Iterator<Item = PossibleValue> {
-    T::CHOICES.iter().map(|choice| {
-        let meaning = choice.meaning.trim_end_matches('.');
-        PossibleValue::new(choice.key.replace('_', "-")).help(meaning)
-    })
-}
-
-pub(crate) fn choice<T: Choices>(text: &str) -> Option<T> {
-    T::from_key(&text.replace('-', "_"))
 }
 
 fn shadings() -> impl TypedValueParser<Value = GivenShading> {

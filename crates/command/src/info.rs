@@ -8,7 +8,7 @@ use halfway::mesh::{AlphaMode, LodGroup, Mesh, Model, Normals, SourceLightKind, 
 use halfway::prelude::Vec3;
 
 use crate::failure::Failure;
-use crate::input::ReadingArgs;
+use crate::reading::ReadingArgs;
 
 #[derive(Args, Debug)]
 pub(crate) struct InfoArgs {

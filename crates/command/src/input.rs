@@ -1,14 +1,11 @@
 //! The scene or the models of the command line.
 
 use std::cell::Cell;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use halfway::lighting::{LightRig, View};
-use halfway::mesh::{Format, LoadOptions, Model, Normals, load_stream, load_with};
+use halfway::mesh::Normals;
 use halfway::prelude::*;
 use halfway::scene::{
     CameraEntry, LoadedModel, MeshEntry, ObjectEntry, SceneError, SceneFile, Spawned, rig_lights, spawn,
@@ -18,105 +15,7 @@ use halfway::scene::{
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
 use crate::look::unknown_material;
-
-const EXPECTED: &str =
-    "neither a scene that is known by a name nor a file that ends in .json, .smf, .obj, .gltf, .glb, .ply or .stl";
-/// The name of standard input and standard output.
-pub(crate) const STANDARD: &str = "-";
-
-/// A scene file or models.
-#[derive(Args, Clone, Debug)]
-pub(crate) struct InputArgs {
-    /// A scene file (.json), or models (.smf, .obj, .gltf, .glb, .ply, .stl): all in one picture, each at its own
-    /// coordinates; - reads a model from standard input, of --format
-    #[arg(value_name = "SCENE|MODELS", required = true)]
-    inputs: Vec<PathBuf>,
-    #[command(flatten)]
-    reading: ReadingArgs,
-}
-
-impl InputArgs {
-    /// The ending of the picture's format.
-    pub(crate) fn picture_format(&self) -> Option<&'static str> {
-        self.reading.picture_format()
-    }
-
-    /// Refuses the format of a picture where none is written.
-    pub(crate) fn without_picture(&self) -> Result<(), Failure> {
-        self.reading.without_picture()
-    }
-}
-
-/// How model files are read.
-#[derive(Args, Clone, Debug, Default)]
-pub(crate) struct ReadingArgs {
-    /// The format of the models, whatever their names end in, or of the picture, or both, such as stl,png
-    #[arg(long, value_name = "FORMAT", value_delimiter = ',', value_parser = formats())]
-    format: Vec<GivenFormat>,
-    /// Read files that the models refer to outside their own folders, too
-    #[arg(long)]
-    outside: bool,
-    /// The most bytes of a file [default: any number, and 1 GiB through a pipe]
-    #[arg(skip)]
-    pub(crate) limit: Option<u64>,
-}
-
-/// A value of `--format`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum GivenFormat {
-    Model(Format),
-    /// By the ending of its files.
-    Picture(&'static str),
-}
-
-const PICTURES: [&str; 4] = ["png", "jpeg", "webp", "exr"];
-
-fn formats() -> impl TypedValueParser<Value = GivenFormat> {
-    let models = Format::ALL.map(|format| (format.extension(), GivenFormat::Model(format)));
-    let all: Vec<_> = models.into_iter().chain(PICTURES.map(|ending| (ending, GivenFormat::Picture(ending)))).collect();
-    PossibleValuesParser::new(all.iter().map(|(ending, _)| *ending).collect::<Vec<_>>()).try_map(move |text| {
-        all.iter().find(|(ending, _)| *ending == text).map(|(_, format)| *format).ok_or("not one of the values")
-    })
-}
-
-impl ReadingArgs {
-    fn model_format(&self) -> Option<Format> {
-        self.format.iter().find_map(|format| if let GivenFormat::Model(format) = format { Some(*format) } else { None })
-    }
-
-    /// The ending of the picture's format.
-    fn picture_format(&self) -> Option<&'static str> {
-        self.format
-            .iter()
-            .find_map(|format| if let GivenFormat::Picture(ending) = format { Some(*ending) } else { None })
-    }
-
-    /// Refuses the format of a picture where none is written.
-    pub(crate) fn without_picture(&self) -> Result<(), Failure> {
-        self.picture_format().map_or(Ok(()), |format| {
-            Err(format!("--format {format}: no picture is written; expected the format of a model").into())
-        })
-    }
-
-    /// Reads a model file or standard input.
-    pub(crate) fn load(&self, file: &Path) -> Result<Model, Failure> {
-        let Self { outside, limit, .. } = *self;
-        let options = LoadOptions { outside, format: self.model_format(), limit };
-        let model = if file == Path::new(STANDARD) {
-            let Some(format) = options.format else {
-                return Err("standard input: the format is not known; expected --format smf, obj, glb, ply or stl"
-                    .to_owned()
-                    .into());
-            };
-            load_stream(format, Path::new("standard input"), std::io::stdin().lock(), options)
-        } else if options.format.is_none() && Format::from_path(file).is_none() {
-            return Err(format!("{}: {EXPECTED}", file.display()).into());
-        } else {
-            load_with(file, options, &mut |_| ControlFlow::Continue(()))
-        };
-        Ok(model?)
-    }
-}
+use crate::reading::{InputArgs, ReadingArgs};
 
 /// A scene with the folder of its relative paths.
 pub(crate) struct SceneInput {
@@ -137,8 +36,7 @@ impl SceneInput {
 
     /// Reads a model of at most so many bytes.
     pub(crate) fn open_model(file: &Path, limit: u64) -> Result<Self, Failure> {
-        let reading = ReadingArgs { limit: Some(limit), ..ReadingArgs::default() };
-        let model = Arc::new(reading.load(file)?);
+        let model = Arc::new(ReadingArgs::within(limit).load(file)?);
         let model = LoadedModel { path: file.to_owned(), model, material: unknown_material() };
         let (base_dir, warned) = (PathBuf::new(), Cell::new(true));
         Ok(Self { scene: scene_of(vec![model]), base_dir, file: file.to_owned(), camera: None, warned })

@@ -7,7 +7,7 @@ use halfway::mesh::{NormalWeighting, Normals};
 use halfway::prelude::*;
 use halfway::scene::{MaterialEntry, SceneFile, rig_lights};
 
-use crate::drawing::{choice, values};
+use crate::choices::{choice, values};
 
 /// The options hold for all objects.
 #[derive(Args, Clone, Debug)]

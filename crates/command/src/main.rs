@@ -5,6 +5,7 @@ mod adapters;
 mod bench;
 #[cfg(feature = "measure")]
 mod chart;
+mod choices;
 mod compare;
 mod convert;
 mod drawing;
@@ -18,6 +19,7 @@ mod input;
 mod look;
 mod picture;
 mod progress;
+mod reading;
 mod render;
 #[cfg(feature = "measure")]
 mod scenery;

@@ -10,7 +10,8 @@ use halfway::render::AdapterChoice;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 
 use crate::failure::Failure;
-use crate::input::{STANDARD, SceneInput};
+use crate::input::SceneInput;
+use crate::reading::STANDARD;
 
 #[derive(Args, Debug)]
 pub(crate) struct ThumbnailArgs {

@@ -50,7 +50,7 @@ pub enum Normals {
         /// The weight of a triangle in the mean.
         weighting: NormalWeighting,
     },
-    /// The file's or the surface's own; where there are none, those that suit the mesh: [`Mesh::suited_normals`].
+    /// The file's or the surface's own; where there are none, those that suit the mesh: [`Mesh::suited_normals`](crate::Mesh::suited_normals).
     Auto,
 }
 

@@ -1,11 +1,17 @@
 //! Normals that suit a mesh of which nothing but its triangles is known.
 
-use glam::{Mat4, Vec3};
+#[cfg(feature = "formats")]
+use glam::Mat4;
+use glam::Vec3;
 
-use super::{NormalWeighting, Normals, creased_normals, face_normal};
+#[cfg(feature = "formats")]
+use super::creased_normals;
+use super::{NormalWeighting, Normals, face_normal};
+use crate::Mesh;
+#[cfg(feature = "formats")]
+use crate::Model;
 use crate::edges::Edges;
 use crate::numbering::Numbering;
-use crate::{Mesh, Model};
 
 /// Degrees of a bin of the histogram of angles between neighbouring triangles.
 const BIN: usize = 5;
@@ -112,6 +118,7 @@ fn scattered(key: u64) -> u64 {
     key ^ key >> 31
 }
 
+#[cfg(feature = "formats")]
 impl Model {
     /// Gives the parts that have no normals of the file's own those that [suit](Mesh::suited_normals) all of them
     /// together, so that a border between two materials is no crease. Parts placed by a transform are each by itself.

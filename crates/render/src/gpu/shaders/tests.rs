@@ -203,7 +203,7 @@ fn material_field(field: RecordField) -> Field {
 /// Each record by the name of its struct.
 fn records() -> [(&'static str, (Vec<Field>, usize)); 4] {
     [
-        ("View", fields!(ViewRecord { scale, depth, w })),
+        ("View", fields!(ViewRecord { scale, depth, w, center })),
         (
             "Light",
             fields!(LightRecord {
