@@ -14,6 +14,7 @@ mod edges;
 #[cfg(feature = "formats")]
 mod files;
 mod mesh;
+mod mesh_edges;
 #[cfg(feature = "formats")]
 mod model;
 mod normals;
@@ -32,12 +33,12 @@ pub use bounds::Bounds;
 #[cfg(feature = "ecs")]
 pub use component::{Mesh3d, MeshPlugin, SpawnOrder};
 #[cfg(feature = "formats")]
-pub use edges::MeshEdge;
 pub use files::{
     Format, LoadError, LoadOptions, LoadProgress, MOST_PIPED, WriteError, load, load_bytes, load_stream, load_with,
     write, write_quantised,
 };
 pub use mesh::{Mesh, MeshError};
+pub use mesh_edges::MeshEdge;
 #[cfg(feature = "formats")]
 pub use model::{
     AlphaMode, GltfMaps, MetallicRoughness, Model, MtlMaps, MtlMaterial, Part, SourceCamera, SourceLight,

@@ -19,6 +19,7 @@ mod picture;
 mod plugin;
 mod quantities;
 mod replaced;
+mod taken;
 
 pub use adapter::Adapter;
 pub use background::draw_background;
@@ -50,10 +51,11 @@ pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal
 pub use halfway_frame::why_empty::{EmptyReason, why_empty};
 pub use headless::Headless;
 pub use lines::draw_edges;
-pub use pending::{PendingPicture, render_picture, take_picture};
+pub use pending::PendingPicture;
 pub use picture::{Picture, Pixels};
 pub use plugin::RenderPlugin;
 pub use quantities::{Quantity, QuantityImage, QuantityValues, SurfacePoint, Surfaces, pick, take_quantities};
+pub use taken::{render_picture, take_picture};
 /// The renderer's version of wgpu, which surfaces have to use.
 #[cfg(feature = "wgpu")]
 pub use wgpu;

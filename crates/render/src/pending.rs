@@ -1,12 +1,9 @@
 //! Pictures that are being read back from the adapter.
 
-use crate::background;
 use crate::cpu::canvas::{Canvas, CanvasTarget};
 #[cfg(feature = "wgpu")]
 use crate::gpu::{attachments::Target, device::Gpu, read_back::ReadBack};
-use crate::lines;
 use crate::picture::Picture;
-use bevy_app::App;
 use bevy_ecs::prelude::{ResMut, Resource, World};
 use bevy_ecs::schedule::InternedScheduleLabel;
 use halfway_frame::error::RenderError;
@@ -27,8 +24,8 @@ enum Pending {
 
 impl PendingPicture {
     /// Starts to copy the newest headless picture; later frames do not change what arrives. It is as the drawer left it:
-    /// opaque, and without the lines of [`Edges`](halfway_lighting::Edges), which [`take_picture`] and
-    /// [`render_picture`] add.
+    /// opaque, and without the lines of [`Edges`](halfway_lighting::Edges), which
+    /// [`take_picture`](crate::take_picture) and [`render_picture`](crate::render_picture) add.
     ///
     /// In a system that runs before the frame of its update is drawn, in `Update` say, that is the picture of the update
     /// before: the log says so once. Ask after [`RenderSet::Deliver`](crate::RenderSet::Deliver), or after the update.
@@ -81,56 +78,22 @@ impl PendingPicture {
     }
 }
 
-/// Runs one frame of `app` ([`App::update`]) and waits for its picture: systems run and time passes. [`take_picture`]
-/// draws the world as it is. Every problem of the frame is an error here: the first of [`FrameReport::errors`] is
-/// returned.
+/// Runs the schedule that draws, and waits for the picture as the drawer left it.
 ///
 /// # Errors
-/// The frame's first error, or why its picture could not be read back.
-pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
-    app.update();
-    picture_of_frame(app.world_mut())
-}
-
-/// Draws the world as it is now and waits for its picture. Only the schedule that draws runs: no `Startup`, no
-/// `Update`, and no time passes. That schedule is [`RenderPlugin::schedule`](crate::RenderPlugin::schedule),
-/// `PostUpdate` by default, so that transforms are propagated first; systems of the app's own that are in it run, too.
-///
-/// [`render_picture`] steps the app instead. A scene that is spawned in `Startup` is there after the first step.
-///
-/// ```
-/// use bevy_app::App;
-/// use bevy_math::UVec2;
-/// use bevy_transform::{TransformPlugin, components::Transform};
-/// use halfway_asset::Assets;
-/// use halfway_lighting::{Camera, Material};
-/// use halfway_mesh::{Mesh, Mesh3d, UvSphere};
-/// use halfway_render::{AdapterChoice, Headless, RenderError, RenderPlugin, take_picture};
-///
-/// # fn main() -> Result<(), RenderError> {
-/// let mut app = App::new();
-/// app.add_plugins((TransformPlugin, RenderPlugin::default()))
-///     .insert_resource(Headless { size: UVec2::new(64, 48), ..Headless::default() })
-///     .insert_resource(AdapterChoice::cpu());
-/// let world = app.world_mut();
-/// world.spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 4.0)));
-/// let sphere = world.resource_mut::<Assets<Mesh>>().add(UvSphere::default());
-/// let ball = world.spawn((Mesh3d(sphere), Material::emissive(bevy_color::LinearRgba::RED))).id();
-/// let with = take_picture(world)?;
-/// world.despawn(ball);
-/// let without = take_picture(world)?;
-/// assert_ne!(with, without);
-/// # Ok(())
-/// # }
-/// ```
-///
-/// # Errors
-/// The frame's first error, or why its picture could not be read back; [`RenderError::NoPicture`] in a world without
-/// a [`RenderPlugin`](crate::RenderPlugin).
-pub fn take_picture(world: &mut World) -> Result<Picture, RenderError> {
+/// As [`take_picture`](crate::take_picture).
+pub(crate) fn draw_frame(world: &mut World) -> Result<Picture, RenderError> {
     let schedule = world.get_resource::<DrawnIn>().ok_or(RenderError::NoPicture)?.0;
     world.try_run_schedule(schedule).map_err(|_| RenderError::NoPicture)?;
-    picture_of_frame(world)
+    drawn_picture(world)
+}
+
+/// The picture of the frame that was drawn, as the drawer left it, or the frame's first error.
+pub(crate) fn drawn_picture(world: &World) -> Result<Picture, RenderError> {
+    if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
+        return Err(error.clone());
+    }
+    PendingPicture::request(world)?.wait()
 }
 
 /// The schedule that draws a frame.
@@ -166,23 +129,11 @@ impl PictureAge {
     }
 }
 
-fn picture_of_frame(world: &mut World) -> Result<Picture, RenderError> {
-    if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
-        return Err(error.clone());
-    }
-    let mut picture = PendingPicture::request(world)?.wait()?;
-    background::put_behind(world, &mut picture)?;
-    if lines::are_there(world) {
-        lines::draw_over_frame(world, &mut picture)?;
-    }
-    Ok(picture)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{AdapterChoice, Headless, RenderPlugin};
-    use bevy_app::Update;
+    use crate::{AdapterChoice, Headless, RenderPlugin, render_picture, take_picture};
+    use bevy_app::{App, Update};
     use bevy_math::UVec2;
     use bevy_transform::TransformPlugin;
     use halfway_lighting::Camera;

@@ -2,7 +2,7 @@
 
 use crate::adapter::Adapter;
 use crate::headless::Headless;
-use crate::pending::{DrawnIn, take_picture};
+use crate::pending::{DrawnIn, draw_frame};
 use crate::picture::{Picture, Pixels};
 use crate::plugin::add_drawers;
 use bevy_app::{App, PostUpdate};
@@ -85,7 +85,7 @@ const MOST_OBJECTS: u64 = 1 << 24;
 ///
 /// # Errors
 /// [`RenderError::NoPicture`] before the first frame, [`RenderError::TooLarge`] where numbers do not fit, and those of
-/// [`take_picture`].
+/// [`take_picture`](crate::take_picture).
 pub(super) fn draw(world: &mut World, shows: Shows) -> Result<Rgba32FImage, RenderError> {
     let mut redrawn = match world.remove_resource::<Redrawn>() {
         Some(redrawn) => redrawn,
@@ -128,7 +128,7 @@ impl Redrawn {
         self.forget(world);
         self.place_camera(world, shows)?;
         self.place_objects(world, shows)?;
-        let drawn = take_picture(&mut self.world);
+        let drawn = draw_frame(&mut self.world);
         for entity in self.entities.drain(..) {
             self.world.despawn(entity);
         }
