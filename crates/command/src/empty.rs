@@ -14,31 +14,25 @@ pub(crate) fn warn_if_empty(app: &mut App, picture: &Picture) {
 
 /// Whether all pixels are the background's.
 fn shows_only(picture: &Picture, camera: Camera) -> bool {
-    let (width, height) = picture.dimensions();
-    let behind = |row: u32| {
+    let (_, height) = picture.dimensions();
+    let behind = (0..height).map(|row| {
         let LinearRgba { red, green, blue, .. } = camera.background_at((f64::from(row) + 0.5) / f64::from(height));
         [red, green, blue]
-    };
-    let row = |pixel: usize| pixel as u32 / width.max(1);
+    });
     match picture {
         Picture::Byte(image) => {
             let byte = |channel: f32| (camera.encoding.encode(f64::from(channel.clamp(0.0, 1.0))) * 255.0).round();
-            let is_background = |(number, pixel): (usize, &image::Rgba<u8>)| {
-                let expected = behind(row(number)).map(byte);
-                pixel.0[3] == 0
-                    || pixel.0[..3]
-                        .iter()
-                        .zip(expected)
-                        .all(|(byte, expected)| (f64::from(*byte) - expected).abs() <= 1.0)
-            };
-            image.pixels().enumerate().all(is_background)
+            image.rows().zip(behind).all(|(mut row, behind)| {
+                let expected = behind.map(byte);
+                row.all(|pixel| {
+                    let same = |(byte, expected): (&u8, f64)| (f64::from(*byte) - expected).abs() <= 1.0;
+                    pixel.0[3] == 0 || pixel.0[..3].iter().zip(expected).all(same)
+                })
+            })
         }
-        Picture::Float(image) => {
-            let is_background = |(number, pixel): (usize, &image::Rgba<f32>)| {
-                pixel.0[3] == 0.0 || pixel.0[..3].iter().zip(behind(row(number))).all(|(a, b)| (a - b).abs() <= 1e-6)
-            };
-            image.pixels().enumerate().all(is_background)
-        }
+        Picture::Float(image) => image.rows().zip(behind).all(|(mut row, behind)| {
+            row.all(|pixel| pixel.0[3] == 0.0 || pixel.0[..3].iter().zip(behind).all(|(a, b)| (a - b).abs() <= 1e-6))
+        }),
     }
 }
 
