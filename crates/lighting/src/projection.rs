@@ -24,7 +24,7 @@ use crate::range::Range;
 /// assert!(camera.validate().is_ok());
 ///
 /// // Objects twice as far away are half as large, or not smaller at all.
-/// let size = |projection: Projection, depth| 1.0 / projection.lens::<f64>([640, 480]).pixel_size(depth, 480.0);
+/// let size = |projection: Projection, depth| 1.0 / projection.lens::<f64>([640, 480]).pixel_size(depth, [640.0, 480.0]);
 /// let perspective = Projection::perspective(45_f32.to_radians());
 /// assert!((size(perspective, 2.0) / size(perspective, 4.0) - 2.0).abs() < 1e-12);
 /// assert_eq!(size(camera.projection, 2.0), size(camera.projection, 4.0));

@@ -11,7 +11,7 @@ use super::OutputError;
 use super::encode::to_bytes;
 use super::format::ending;
 use super::partial::Partial;
-use super::picture::{not_empty, png_encoder};
+use super::picture::{is_opaque, not_empty, png_encoder};
 
 /// The duration of a frame: `numerator / denominator` seconds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +107,8 @@ impl AnimationWriter {
     /// Adds the next frame. A picture in floating point is clamped and encoded.
     ///
     /// # Errors
-    /// The frame has another size than the animation, there are more frames than announced, or it cannot be written.
+    /// The frame has another size than the animation, there are more frames than announced, it is not opaque, or it
+    /// cannot be written.
     pub fn frame(&mut self, picture: &Picture) -> Result<(), OutputError> {
         let (found_width, found_height) = picture.dimensions();
         let (width, height) = self.size;
@@ -119,6 +120,10 @@ impl AnimationWriter {
         if self.written == self.frames {
             let (file, found) = (file.to_owned(), self.frames.saturating_add(1));
             return Err(OutputError::FrameCount { file, found, expected: self.frames });
+        }
+        if !is_opaque(picture) {
+            let expected = "an opaque background, or a file for each frame, by a {} in the name";
+            return Err(OutputError::NotOpaque { file: file.to_owned(), format: "an animated PNG", expected });
         }
         self.writer
             .write_image_data(to_bytes(picture, self.encoding).as_raw())

@@ -4,7 +4,7 @@ use halfway_lighting::Encoding;
 use halfway_reference::metrics::{text_height, text_scale, write_text};
 use halfway_render::Picture;
 use image::imageops::{self, FilterType};
-use image::{DynamicImage, Rgb, RgbImage, Rgba, RgbaImage};
+use image::{DynamicImage, Rgb, Rgb32FImage, RgbImage, Rgba, RgbaImage};
 
 use super::encode::{quantise, to_linear};
 
@@ -37,6 +37,19 @@ pub struct ContactSheet {
 const GAP: u32 = 4;
 const PAPER: Rgba<u8> = Rgba([24, 24, 24, 255]);
 
+/// The frame's intensities, laid over the sheet where the frame is not opaque.
+fn over_paper(frame: &Picture, mut linear: Rgb32FImage, encoding: Encoding) -> Rgb32FImage {
+    let paper = encoding.decode(f64::from(PAPER.0[0]) / 255.0) as f32;
+    for (x, y, pixel) in linear.enumerate_pixels_mut() {
+        let alpha = match frame {
+            Picture::Byte(image) => f32::from(image.get_pixel(x, y).0[3]) / 255.0,
+            Picture::Float(image) => image.get_pixel(x, y).0[3].clamp(0.0, 1.0),
+        };
+        pixel.0 = pixel.0.map(|i| alpha * i + (1.0 - alpha) * paper);
+    }
+    linear
+}
+
 impl ContactSheet {
     /// A sheet of `columns` frames in a row, each `width` pixels wide and as high as its shape needs. 0 is taken as 1.
     pub fn new(columns: u32, width: u32, encoding: Encoding) -> Self {
@@ -58,6 +71,7 @@ impl ContactSheet {
         let cell_width = self.width.min(width);
         let cell_height = (u64::from(height) * u64::from(cell_width)).div_ceil(u64::from(width)) as u32;
         let linear = to_linear(frame, self.encoding);
+        let linear = over_paper(frame, linear, self.encoding);
         let small = imageops::resize(&linear, cell_width, cell_height, FilterType::Triangle);
         let mut cell = RgbImage::from_fn(cell_width, cell_height, |x, y| {
             Rgb(small.get_pixel(x, y).0.map(|i| quantise(i, self.encoding, 255) as u8))

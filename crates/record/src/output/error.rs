@@ -61,6 +61,16 @@ pub enum OutputError {
         /// The file.
         file: PathBuf,
     },
+    /// A picture that is not opaque in a format that has no opacity.
+    #[error("{}: the background is not opaque, and {format} has no opacity; expected {expected}", file.display())]
+    NotOpaque {
+        /// The file.
+        file: PathBuf,
+        /// The format, in words.
+        format: &'static str,
+        /// What holds it, in words.
+        expected: &'static str,
+    },
     /// The picture has no pixels.
     #[error("{}: the picture is {width} × {height} pixels; expected at least 1 × 1", file.display())]
     Empty {

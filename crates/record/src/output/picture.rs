@@ -21,12 +21,11 @@ use super::{OutputError, PictureFormat};
 /// are. In an EXR the intensities are stored unchanged.
 ///
 /// A picture that is not opaque everywhere has a fourth channel: in a PNG and a WebP beside the colours as they are
-/// (straight alpha), in an EXR with colours that are multiplied by it (associated alpha), as these formats have it. A JPEG
-/// has none.
+/// (straight alpha), in an EXR with colours that are multiplied by it (associated alpha), as these formats have it.
 ///
 /// # Errors
 /// [`OutputError::TooCoarse`] for a byte picture in a format of more bits, [`OutputError::Empty`] for one without
-/// pixels, and any error of the system or the encoder. An existing file is then unchanged.
+/// pixels, [`OutputError::NotOpaque`] for a JPEG of one that is not opaque, and any error of the system or the encoder. An existing file is then unchanged.
 pub fn write_picture(
     picture: &Picture,
     file: &Path,
@@ -123,6 +122,10 @@ fn check(picture: &Picture, file: &Path, format: PictureFormat) -> Result<(), Ou
     if format.pixels() == Pixels::Float && matches!(picture, Picture::Byte(_)) {
         return Err(OutputError::TooCoarse { file: file.to_owned() });
     }
+    if format == PictureFormat::Jpeg && !is_opaque(picture) {
+        let expected = ".png, .webp or .exr, or an opaque background";
+        return Err(OutputError::NotOpaque { file: file.to_owned(), format: "a JPEG", expected });
+    }
     let longest = match format {
         PictureFormat::Jpeg => LONGEST_JPEG,
         PictureFormat::WebP => LONGEST_WEBP,
@@ -173,7 +176,7 @@ impl SavePicture for Picture {
 }
 
 /// Whether nothing lies behind the picture: then it has three channels in a file, else four.
-fn is_opaque(picture: &Picture) -> bool {
+pub(super) fn is_opaque(picture: &Picture) -> bool {
     match picture {
         Picture::Byte(image) => image.pixels().all(|pixel| pixel.0[3] == 255),
         Picture::Float(image) => image.pixels().all(|pixel| pixel.0[3] >= 1.0),

@@ -411,3 +411,22 @@ fn a_picture_that_is_not_opaque_has_four_channels() {
     assert!(read("o.png", &Picture::Float(opaque.clone()), None).as_rgb8().is_some());
     assert!(read("o.exr", &Picture::Float(opaque), None).as_rgb32f().is_some());
 }
+
+#[test]
+fn what_has_no_opacity_refuses_a_picture_that_is_not_opaque() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let clear = Picture::Byte(RgbaImage::from_pixel(4, 3, Rgba([10, 20, 30, 0])));
+    let file = folder.path().join("clear.jpg");
+    let error = write_picture(&clear, &file, PictureFormat::Jpeg, Encoding::Srgb).expect_err("refused").to_string();
+    assert!(error.contains("clear.jpg") && error.contains(".png, .webp or .exr"), "{error}");
+    let file = folder.path().join("clear.png");
+    let mut animation =
+        AnimationWriter::create(&file, (4, 3), 1, FrameDelay::per_second(10), Encoding::Srgb).expect("a file");
+    let error = animation.frame(&clear).expect_err("refused").to_string();
+    assert!(error.contains("an animated PNG has no opacity"), "{error}");
+    // On a sheet it lies over the paper.
+    let mut sheet = ContactSheet::new(1, 4, Encoding::Srgb);
+    sheet.push(&clear);
+    let Picture::Byte(sheet) = sheet.picture() else { panic!("bytes") };
+    assert!(sheet.pixels().all(|pixel| pixel.0 == [24, 24, 24, 255]));
+}
