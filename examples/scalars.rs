@@ -7,6 +7,7 @@
 //! ```
 
 use halfway::prelude::*;
+use halfway::render::Legend;
 use halfway::scene::{ColorMap, Scalars};
 
 fn main() -> AppExit {
@@ -19,6 +20,8 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut images: R
     let raised = flat.positions().iter().map(|p| p.with_y(height(p))).collect();
     let sheet = Mesh::new(raised, flat.indices().to_vec())?;
     let heights = Scalars::at_vertices(sheet.positions().iter().map(|p| p.y).collect());
+    let range = heights.shown_range().unwrap_or_default();
+    commands.insert_resource(Legend { title: "height".into(), range, colors: heights.map.colors() });
     let (sheet, colors) = Scalars { isolines: 6, ..heights }.on(&sheet)?;
     commands.spawn((
         Mesh3d(meshes.add(sheet)),

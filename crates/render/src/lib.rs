@@ -12,6 +12,7 @@ mod cpu;
 #[cfg(feature = "wgpu")]
 mod gpu;
 mod headless;
+mod legend;
 mod lines;
 mod logged;
 mod pending;
@@ -50,6 +51,7 @@ pub use halfway_frame::view::camera::View;
 pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 pub use halfway_frame::why_empty::{EmptyReason, why_empty};
 pub use headless::Headless;
+pub use legend::Legend;
 pub use lines::draw_edges;
 pub use pending::PendingPicture;
 pub use picture::{Picture, Pixels};

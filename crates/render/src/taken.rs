@@ -1,6 +1,7 @@
 //! Pictures of frames, with what is laid over and behind them.
 
 use crate::background;
+use crate::legend::Legend;
 use crate::lines;
 use crate::pending::{draw_frame, drawn_picture};
 use crate::picture::Picture;
@@ -9,6 +10,7 @@ use bevy_ecs::prelude::World;
 use halfway_frame::error::RenderError;
 #[cfg(doc)]
 use halfway_frame::report::FrameReport;
+use halfway_frame::view::camera::View;
 
 /// Runs one frame of `app` ([`App::update`]) and waits for its picture: systems run and time passes. [`take_picture`]
 /// draws the world as it is. Every problem of the frame is an error here: the first of [`FrameReport::errors`] is
@@ -62,11 +64,14 @@ pub fn take_picture(world: &mut World) -> Result<Picture, RenderError> {
     finished(world, picture)
 }
 
-/// The picture with its background and its lines.
+/// The picture with its background, its lines and its legend.
 fn finished(world: &mut World, mut picture: Picture) -> Result<Picture, RenderError> {
     background::put_behind(world, &mut picture)?;
     if lines::are_there(world) {
         lines::draw_over_frame(world, &mut picture)?;
+    }
+    if let (Some(legend), Some(view)) = (world.get_resource::<Legend>(), world.get_resource::<View>()) {
+        legend.draw(&mut picture, view.camera.unwrap_or_default().encoding);
     }
     Ok(picture)
 }

@@ -103,6 +103,11 @@ impl ColorMap {
         };
         gradient.eval_continuous(share).as_array()
     }
+
+    /// The map in 256 steps, from its beginning to its end, in bytes of sRGB: for a legend.
+    pub fn colors(self) -> Vec<[u8; 3]> {
+        (0..=255_u8).map(|step| self.at(f64::from(step) / 255.0)).collect()
+    }
 }
 
 /// Why numbers cannot be shown on a mesh.
