@@ -80,12 +80,17 @@ fn the_reference_has_the_same_backgrounds() {
     let frame = FrameToDraw { number: 0, size: SIZE, pixels: Pixels::Float };
     let reference = ReferenceDrawing::default().picture(&mut stage.app, frame, &|_, _| ControlFlow::Continue(()));
     let Ok(Picture::Float(reference)) = reference else { panic!("a picture in floating point") };
-    let differ = drawn.pixels().zip(reference.pixels()).filter(|(found, expected)| {
-        found.0.iter().zip(expected.0).any(|(found, expected)| (found - expected).abs() > 1e-5)
-    });
+    let differ = |drawn: &Rgba32FImage| {
+        let differ = drawn.pixels().zip(reference.pixels()).filter(|(found, expected)| {
+            found.0.iter().zip(expected.0).any(|(found, expected)| (found - expected).abs() > 1e-5)
+        });
+        differ.count()
+    };
     // Pixels on the cube's edges may show another side.
-    let differ = differ.count();
-    assert!(differ <= 6, "{differ} pixels differ");
+    assert!(differ(&drawn) <= 6, "{} pixels differ", differ(&drawn));
+    // A planted fault: another opacity by a thousandth.
+    let other = stage.draw(&scene(Camera { background_opacity: 0.251, ..camera }, false));
+    assert!(differ(&other) > 6, "{} pixels differ", differ(&other));
 }
 
 #[test]

@@ -148,15 +148,25 @@ fn lines_are_those_that_the_oracle_s_surfaces_give() {
             let nearest = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest?;
             Some((nearest.object, nearest.triangle?))
         };
-        let surfaces = Surfaces::found_by(stage.world(), size, found).expect("a camera");
-        let mut expected = Picture::Float(Rgba32FImage::new(160, 120));
-        draw_edges(stage.world(), &mut expected, &surfaces).expect("valid edges");
-        let Picture::Float(expected) = expected else { panic!("bytes") };
+        let mut lines_by = |found: &dyn Fn(u32, u32) -> Option<(Entity, u32)>| {
+            let surfaces = Surfaces::found_by(stage.world(), size, found).expect("a camera");
+            let mut lines = Picture::Float(Rgba32FImage::new(160, 120));
+            draw_edges(stage.world(), &mut lines, &surfaces).expect("valid edges");
+            let Picture::Float(lines) = lines else { panic!("bytes") };
+            lines
+        };
         // Only lines are as red as this; where a pixel shows another side of a surface's edge, a hidden line may begin
         // a pixel later.
-        let differ = picture.pixels().zip(expected.pixels()).filter(|(a, b)| (a.0[0] - b.0[0]).abs() > 0.75).count();
+        let differ = |lines: &Rgba32FImage| {
+            picture.pixels().zip(lines.pixels()).filter(|(a, b)| (a.0[0] - b.0[0]).abs() > 0.75).count()
+        };
+        let expected = lines_by(&found);
         let lines = expected.pixels().filter(|pixel| pixel.0[0] > 0.75).count();
-        assert!(lines > 100 && differ * 100 <= lines, "{which:?}: {differ} pixels differ, of {lines}");
+        let wrong = differ(&expected);
+        assert!(lines > 100 && wrong * 100 <= lines, "{which:?}: {wrong} pixels differ, of {lines}");
+        // A planted fault: without surfaces nothing is hidden.
+        let wrong = differ(&lines_by(&|_, _| None));
+        assert!(wrong * 100 > lines, "{which:?}: {wrong} pixels differ where nothing is hidden, of {lines}");
     }
 }
 

@@ -8,7 +8,7 @@ use bevy_math::{DVec2, DVec3};
 use halfway::lighting::Choices;
 use halfway::prelude::*;
 use halfway::reference::{Nearest, Oracle};
-use halfway::render::{Quantity, QuantityValues, Surfaces, pick, take_quantities};
+use halfway::render::{Quantity, QuantityValues, SurfacePoint, Surfaces, pick, take_quantities};
 use halfway::texture::TexelImage;
 use std::collections::HashSet;
 
@@ -42,6 +42,29 @@ fn expected(oracle: &Oracle, [x, y]: [u32; 2], reach: f64) -> (Option<Nearest>, 
     let around = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
     let same = |[dx, dy]: [f64; 2]| id(oracle.probe(x + reach * dx, y + reach * dy).nearest) == id(middle);
     (middle, around.into_iter().all(same))
+}
+
+/// Whether the surface is the oracle's, to 10⁻⁶ of its depth.
+fn agree(expected: &Nearest, found: &SurfacePoint) -> bool {
+    (expected.object, expected.triangle) == (found.entity, Some(found.triangle))
+        && expected.front == found.front
+        && (expected.depth - found.depth).abs() <= 1e-6 * expected.depth
+        && (expected.position - found.position).length() <= 1e-6 * expected.depth
+}
+
+/// Planted faults: another object or triangle, the other side, and twice the error that is allowed.
+fn faults_are_found(expected: &Nearest, found: SurfacePoint) {
+    let more = 2e-6 * expected.depth;
+    let faults = [
+        SurfacePoint { entity: Entity::PLACEHOLDER, ..found },
+        SurfacePoint { triangle: found.triangle + 1, ..found },
+        SurfacePoint { front: !found.front, ..found },
+        SurfacePoint { depth: expected.depth + more, ..found },
+        SurfacePoint { position: expected.position + more * DVec3::X, ..found },
+    ];
+    for fault in faults {
+        assert!(!agree(expected, &fault), "{fault:?} passes for {expected:?}");
+    }
 }
 
 #[test]
@@ -79,11 +102,11 @@ fn surfaces_are_those_that_the_oracle_finds() {
                 continue;
             };
             seen.insert(found.entity);
-            let same = (expected.object, expected.triangle) == (found.entity, Some(found.triangle))
-                && expected.front == found.front
-                && (expected.depth - found.depth).abs() <= 1e-6 * expected.depth
-                && (expected.position - found.position).length() <= 1e-6 * expected.depth;
-            failures.unless(same, || format!("{name}, ({x}, {y}): {found:?} instead of {expected:?}"));
+            if seen.len() < 2 {
+                faults_are_found(&expected, found);
+            }
+            failures
+                .unless(agree(&expected, &found), || format!("{name}, ({x}, {y}): {found:?} instead of {expected:?}"));
         }
         // The bowl and the fine sphere are small triangles.
         failures.unless(compared > 5000 && empty > 1000, || format!("{name}: {compared} compared, {empty} empty"));

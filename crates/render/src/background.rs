@@ -83,7 +83,7 @@ mod tests {
         for share in [0.0, 0.25, 0.5, 1.0] {
             let opaque = [0, 1, 2].map(|c| (1.0 - share) * ink[c] + share * over_drawn[c]);
             let [r, g, b, alpha] = over(opaque, share, drawn, behind);
-            // Of what is seen, the background has its share times its opacity.
+            // The background's part is its share times its opacity.
             assert!((alpha - (1.0 - share + share * 0.25)).abs() < 1e-6);
             let expected = [0, 1, 2].map(|c| ((1.0 - share) * ink[c] + share * 0.25 * over_behind[c]) / alpha);
             for (found, expected) in [r, g, b].into_iter().zip(expected) {

@@ -68,7 +68,7 @@ pub enum OutputError {
         file: PathBuf,
         /// The format, in words.
         format: &'static str,
-        /// What holds it, in words.
+        /// The formats that have opacity, in words.
         expected: &'static str,
     },
     /// The picture has no pixels.

@@ -155,7 +155,7 @@ impl PictureView {
         let pixel = grid.place(exact);
         let at_w_1 = 2.0 * pixel / self.size - 1.0;
         let on_grid = (DVec2::new(at_w_1.x, -at_w_1.y) * self.half + self.middle) * self.w(p);
-        // What a shift adds is rounded, too.
+        // The shift is rounded, too.
         let reach = self.size * (1.0 + (self.middle / self.half).abs());
         // A point in the plane of the eye has no projection.
         if on_grid.is_finite() { (on_grid.extend(p.z), grid.is_tie(exact, reach)) } else { (p, false) }

@@ -201,7 +201,7 @@ impl Drawing<'_> {
         let pixel = at.floor().as_ivec2().clamp(IVec2::ZERO, self.size().as_ivec2() - 1);
         let nearness = line.nearness[0] + along * (line.nearness[1] - line.nearness[0]);
         let depth = self.lens().depth_at(nearness);
-        // What a quarter of a pixel can hide.
+        // Nearer by a quarter of a pixel, so that an edge is not hidden by its own surface.
         let depth = depth - 0.25 * self.lens().pixel_size(depth, self.size().as_dvec2().to_array());
         AROUND.into_iter().any(|step| {
             let [x, y] = (pixel + step).to_array();

@@ -1,4 +1,4 @@
-//! What a picture shows beside colour: the surface in each of its pixels, and pictures of its properties.
+//! The surface in each pixel of a picture, and pictures of its properties.
 
 mod quantity;
 mod redrawn;

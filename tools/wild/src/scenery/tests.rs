@@ -60,7 +60,8 @@ fn every_key_and_word_of_the_format_is_drawn() {
     let of_texels = ["uv_set", "first", "second", "channel", "red", "green", "blue", "alpha"];
     // A view becomes a camera of other numbers before anything is drawn.
     let of_views = ["view", "azimuth_deg", "elevation_deg", "left", "right", "top", "bottom", "iso", "fit", "zoom"];
-    // What is laid over and behind the finished picture is the same code for all renderers, which the judge does not judge.
+    // Lines and backgrounds are laid over and behind the finished picture by the same code for all renderers; the judge
+    // does not judge them.
     let of_edges = ["edges", "which", "all", "feature", "boundary", "silhouette", "width", "hidden", "omit", "dash"];
     let of_backgrounds = ["surface", "background_below", "background_opacity"];
     let left_out = [&left_out[..], &of_maps, &of_texels, &of_views, &of_edges, &of_backgrounds].concat();
