@@ -28,9 +28,9 @@ pub use crate::HalfwayPlugins;
 pub use halfway_asset::{Assets as HalfwayAssets, Handle as HalfwayHandle};
 pub use halfway_lighting::{
     AlphaMode as HalfwayAlphaMode, Attenuation, BackMaterial, Camera as HalfwayCamera, Cone as HalfwayCone,
-    DirectionalLight as HalfwayDirectionalLight, Encoding, Faces, Frequency, GlobalAmbient, Intensity, LightingPlugin,
-    Material as HalfwayMaterial, PointLight as HalfwayPointLight, Reflectance, Samples, Shading,
-    SpotLight as HalfwaySpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Viewer,
+    DirectionalLight as HalfwayDirectionalLight, Encoding, Faces, Frequency, GlobalAmbient, Intensity, Layers,
+    LightingPlugin, Material as HalfwayMaterial, PointLight as HalfwayPointLight, Reflectance, Samples, Shading,
+    SpotLight as HalfwaySpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Viewer, Viewport as HalfwayViewport,
     Visibility as HalfwayVisibility,
 };
 pub use halfway_mesh::{

@@ -16,8 +16,9 @@ pub use bevy_transform::prelude::{GlobalTransform, Transform, TransformPlugin};
 pub use halfway_asset::{Assets, Handle};
 pub use halfway_lighting::{
     AlphaMode, Attenuation, BackMaterial, Camera, Cone, DirectionalLight, Encoding, Faces, Film, Frequency,
-    GlobalAmbient, HemisphereLight, Intensity, LightingPlugin, Material, PointLight, Projection, Reflectance, Samples,
-    Shading, SpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Viewer, Visibility,
+    GlobalAmbient, HemisphereLight, Intensity, Layers, LightingPlugin, Load, Material, PointLight, Projection,
+    Reflectance, Samples, Shading, SpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Viewer, Viewport,
+    Visibility,
 };
 pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
 pub use halfway_record::output::SavePicture;

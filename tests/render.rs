@@ -57,6 +57,7 @@ mod render {
     mod timing;
     mod transforms;
     mod values;
+    mod viewports;
     mod visibility;
     mod why_empty;
 }

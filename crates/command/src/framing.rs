@@ -30,7 +30,7 @@ impl FramingArgs {
     /// Changes the camera of the scene.
     pub(crate) fn apply(&self, scene: &mut SceneFile) {
         let Self { view, up, ortho, fit, zoom } = *self;
-        if view.is_none() && up.is_none() && !ortho && fit.is_none() && zoom.is_none() {
+        if !self.is_given() {
             return;
         }
         let framed = CameraEntry { view: Some(View::default()), ..CameraEntry::default() };
@@ -40,6 +40,12 @@ impl FramingArgs {
         camera.ortho |= ortho;
         camera.fit = fit.or(camera.fit);
         camera.zoom *= zoom.unwrap_or(1.0);
+    }
+
+    /// Whether any of them is given.
+    pub(crate) fn is_given(&self) -> bool {
+        let Self { view, up, ortho, fit, zoom } = self;
+        view.is_some() || up.is_some() || *ortho || fit.is_some() || zoom.is_some()
     }
 
     /// The framing from another view.

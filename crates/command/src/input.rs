@@ -98,6 +98,9 @@ impl SceneInput {
         }
         args.look.apply(scene);
         args.framing.apply(scene);
+        if args.framing.is_given() {
+            input.see_alone();
+        }
         Ok(input)
     }
 
@@ -107,6 +110,16 @@ impl SceneInput {
         let size = args.size.unwrap_or(UVec2::from_array(self.scene.size));
         self.scene.size = size.to_array();
         size
+    }
+
+    /// Gives the first camera, or the one that is chosen, the picture for itself.
+    pub(crate) fn see_alone(&mut self) {
+        self.scene.all_cameras_mut().for_each(|camera| camera.viewport = None);
+    }
+
+    /// Whether several cameras share the picture.
+    pub(crate) fn is_shared(&self) -> bool {
+        self.camera.is_none() && self.scene.all_cameras().any(|camera| camera.viewport.is_some())
     }
 
     /// Removes what is drawn over and behind the finished picture, by the same code for all renderers: lines along edges,

@@ -140,6 +140,9 @@ impl Drawer {
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let mut input = SceneInput::read(&args.drawing)?;
     let size = input.resize(args.size);
+    if args.views.is_some() || args.turntable.is_some() {
+        input.see_alone();
+    }
     let turn = args.turntable.map(|frames| 0..frames);
     let frames = args.frames.clone().or(turn);
     if args.fps.is_some() && frames.is_none() {

@@ -41,6 +41,12 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     if input.remove_what_is_laid_over() {
         eprintln!("note: judged without lines along edges and before an opaque background of one colour");
     }
+    if input.is_shared() {
+        let file = input.name();
+        return Err(
+            format!("{file}: several cameras share the picture; expected --camera with the one to judge").into()
+        );
+    }
     if let Some(file) = &args.picture {
         return judge_picture(args, input, file);
     }

@@ -86,7 +86,7 @@ pub enum RenderError {
         entity: String,
     },
     /// The headless picture has no pixels.
-    #[error("the picture is {width} × {height} pixels; expected at least 1 × 1 (`Headless::size`)")]
+    #[error("the picture is {width} × {height} pixels; expected at least 1 × 1 (`Headless::size`, `Viewport::part`)")]
     EmptyPicture {
         /// Its width in pixels.
         width: u32,
@@ -96,8 +96,8 @@ pub enum RenderError {
     /// There is nothing to look through.
     #[error("there is no camera: spawn one with `(Camera::default(), Transform::from_xyz(0.0, 0.0, 5.0))`")]
     NoCamera,
-    /// More than one camera is in the world.
-    #[error("the scene has {0} cameras and only one can be drawn; keep one `Camera` component")]
+    /// More than one camera is in the world, and it is not said which part of the picture each of them draws.
+    #[error("the scene has {0} cameras: give each a `Viewport`, or keep one `Camera` component")]
     ManyCameras(usize),
     /// More than one environment lights the scene.
     #[error(

@@ -20,4 +20,4 @@ pub mod values;
 pub mod view;
 pub mod why_empty;
 
-pub use plugin::{FramePlugin, ReadCamera, add_backend};
+pub use plugin::{FramePlugin, FurtherCamera, ReadCamera, add_backend, add_further_camera};

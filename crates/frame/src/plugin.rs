@@ -13,14 +13,14 @@ use crate::report::FrameReport;
 use crate::sets::RenderSet;
 use crate::times;
 use crate::values::{FrameValues, WaitsForLevels};
-use crate::view::camera::{self, PictureSize, View};
+use crate::view::camera::{self, Epoch, PictureSize, View};
 use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
 use bevy_app::{App, Plugin};
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
-use bevy_ecs::schedule::InternedScheduleLabel;
+use bevy_ecs::schedule::{InternedScheduleLabel, InternedSystemSet, ScheduleConfigs, ScheduleLabel};
 use bevy_transform::TransformSystems;
-use halfway_lighting::{LightingPlugin, Material};
+use halfway_lighting::{CameraTurn, LightingPlugin, Material};
 use halfway_mesh::{Mesh3d, MeshPlugin};
 use halfway_texture::TexturePlugin;
 
@@ -46,6 +46,8 @@ impl Plugin for FramePlugin {
             .init_resource::<FrameValues>()
             .init_resource::<WaitsForLevels>()
             .init_resource::<PictureSize>()
+            .init_resource::<CameraTurn>()
+            .init_resource::<Epoch>()
             .init_resource::<View>()
             .init_resource::<Visible>()
             .init_resource::<Lights>()
@@ -55,30 +57,49 @@ impl Plugin for FramePlugin {
             .init_resource::<Passes>()
             .init_resource::<Workshop>()
             .init_resource::<Geometries>();
-        self.add_systems(app);
+        let order = add_stages(app, self.schedule);
+        app.configure_sets(self.schedule, order.after(TransformSystems::Propagate)).add_systems(
+            self.schedule,
+            (
+                camera::require_propagation.in_set(ReadCamera).after(camera::update),
+                meshes::forget_removed.in_set(RenderSet::Choose).after(terms::check).before(meshes::lay_out),
+            ),
+        );
         self.require_components(app);
         times::add_clocks(app, self.schedule);
     }
 }
 
-impl FramePlugin {
-    fn add_systems(&self, app: &mut App) {
-        use RenderSet::{Batch, Choose, Deliver, Draw, Illuminate, Matrices, Select, Upload, View};
-        let order = (View, Select, Matrices, Choose, Illuminate, Batch, Upload, Draw, Deliver);
-        app.configure_sets(self.schedule, order.chain().after(TransformSystems::Propagate))
-            .configure_sets(self.schedule, ReadCamera.in_set(View))
-            .add_systems(
-                self.schedule,
-                (
-                    (camera::update, camera::require_propagation).chain().in_set(ReadCamera),
-                    (matrices::select, surroundings::gather).in_set(Select),
-                    matrices::compute.in_set(Matrices),
-                    (terms::check, meshes::forget_removed, meshes::lay_out).chain().in_set(Choose),
-                    gather::gather.in_set(Illuminate),
-                ),
-            );
-    }
+/// The schedule that makes the frame of each camera after the first, where several share a picture. It has the same sets;
+/// whoever runs it says whose [turn](CameraTurn) it is.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FurtherCamera;
 
+/// Adds the systems that make a camera's frame.
+fn add_stages(app: &mut App, schedule: InternedScheduleLabel) -> ScheduleConfigs<InternedSystemSet> {
+    use RenderSet::{Batch, Choose, Deliver, Draw, Illuminate, Matrices, Select, Upload, View};
+    app.configure_sets(schedule, ReadCamera.in_set(View)).add_systems(
+        schedule,
+        (
+            camera::update.in_set(ReadCamera),
+            (matrices::select, surroundings::gather).in_set(Select),
+            matrices::compute.in_set(Matrices),
+            (terms::check, meshes::lay_out).chain().in_set(Choose),
+            gather::gather.in_set(Illuminate),
+        ),
+    );
+    (View, Select, Matrices, Choose, Illuminate, Batch, Upload, Draw, Deliver).chain()
+}
+
+/// Adds the stages of a frame up to its draws to [`FurtherCamera`].
+pub fn add_further_camera(app: &mut App) {
+    let schedule = FurtherCamera.intern();
+    let order = add_stages(app, schedule);
+    app.configure_sets(schedule, order);
+    times::add_clocks_of_further_camera(app, schedule);
+}
+
+impl FramePlugin {
     /// Gives objects the components that a frame needs. An app in which there were objects before this plugin takes no
     /// new requirements; there, objects that lack some are looked for in each frame.
     fn require_components(&self, app: &mut App) {

@@ -4,7 +4,8 @@ use crate::error::RenderError;
 use crate::phases::Pass;
 use bevy_ecs::prelude::Resource;
 
-/// Counters and errors of the newest frame. Counts are exact, so they can be tested.
+/// Counters and errors of the newest frame. Counts are exact, so they can be tested. Of several cameras in one picture
+/// they are sums, so that an object which two of them see counts twice.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FrameReport {
     /// Everything that kept the frame from being drawn as requested, in the order found. The subject of each error is
@@ -67,6 +68,37 @@ pub struct FrameReport {
 }
 
 impl FrameReport {
+    /// Adds what the frame of another camera did, in the same picture.
+    pub fn add(&mut self, other: Self) {
+        let Self { pipelines, pipelines_live, pipelines_pending, levels_pending, .. } = other;
+        *self = Self {
+            errors: [std::mem::take(&mut self.errors), other.errors].concat(),
+            objects: self.objects + other.objects,
+            visible: self.visible + other.visible,
+            lights: self.lights + other.lights,
+            triangles_in: self.triangles_in + other.triangles_in,
+            patches: self.patches + other.patches,
+            patches_culled: self.patches_culled + other.patches_culled,
+            lights_assigned: self.lights_assigned + other.lights_assigned,
+            light_pairs: self.light_pairs + other.light_pairs,
+            left_out: self.left_out.max(other.left_out),
+            draws: self.draws + other.draws,
+            triangles: self.triangles + other.triangles,
+            passes: [std::mem::take(&mut self.passes), other.passes].concat(),
+            passes_refused: self.passes_refused + other.passes_refused,
+            picture_passes: self.picture_passes + other.picture_passes,
+            matrices: self.matrices + other.matrices,
+            materials: self.materials + other.materials,
+            bytes_uploaded: self.bytes_uploaded + other.bytes_uploaded,
+            pipelines_awaited: self.pipelines_awaited + other.pipelines_awaited,
+            // They are of the App.
+            levels_pending,
+            pipelines,
+            pipelines_live,
+            pipelines_pending,
+        };
+    }
+
     /// Starts a frame: everything but the pipelines, which live on, is zeroed.
     pub(crate) fn begin(&mut self) {
         let Self { pipelines, pipelines_live, pipelines_pending, .. } = *self;

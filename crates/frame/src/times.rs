@@ -19,7 +19,7 @@ pub struct SetTimes {
 
 impl SetTimes {
     /// The time from the end of the set before to the end of this one, by the wall clock, without
-    /// [`SetTimes::display`]. Systems of the App that the schedule runs in between count too; order them
+    /// [`SetTimes::display`]; of several cameras, the sum. Systems of the App that the schedule runs in between count too; order them
     /// before [`RenderSet::View`] or after [`RenderSet::Deliver`] to keep them out.
     pub fn duration(&self, set: RenderSet) -> Duration {
         Duration::from_secs_f64(self.sets[set as usize])
@@ -106,7 +106,12 @@ impl FrameTimes {
 
     fn end(&mut self, set: RenderSet, now: Instant) {
         let took = self.set_began.replace(now).map_or(Duration::ZERO, |began| now.saturating_duration_since(began));
-        self.current.sets[set as usize] = took.as_secs_f64();
+        self.current.sets[set as usize] += took.as_secs_f64();
+    }
+
+    /// Leaves out what happens until the next set begins.
+    fn resume(&mut self, now: Instant) {
+        self.set_began = Some(now);
     }
 
     fn finish(&mut self) {
@@ -121,17 +126,29 @@ pub(crate) fn add_clocks(app: &mut App, schedule: InternedScheduleLabel) {
     let begin = |mut times: ResMut<FrameTimes>| times.begin(Instant::now());
     app.init_resource::<FrameTimes>();
     app.add_systems(schedule, begin.after(TransformSystems::Propagate).before(first));
-    for pair in RenderSet::ALL.windows(2) {
-        let (set, next) = (pair[0], pair[1]);
-        let end = move |mut times: ResMut<FrameTimes>| times.end(set, Instant::now());
-        app.add_systems(schedule, end.after(set).before(next));
-    }
+    add_ends(app, schedule);
     let [.., last] = RenderSet::ALL;
     let finish = move |mut times: ResMut<FrameTimes>| {
         times.end(last, Instant::now());
         times.finish();
     };
     app.add_systems(schedule, finish.after(last));
+}
+
+/// The same for the frame of a further camera, whose times are added to those of the first.
+pub(crate) fn add_clocks_of_further_camera(app: &mut App, schedule: InternedScheduleLabel) {
+    let [first, ..] = RenderSet::ALL;
+    let resume = |mut times: ResMut<FrameTimes>| times.resume(Instant::now());
+    app.add_systems(schedule, resume.before(first));
+    add_ends(app, schedule);
+}
+
+fn add_ends(app: &mut App, schedule: InternedScheduleLabel) {
+    for pair in RenderSet::ALL.windows(2) {
+        let (set, next) = (pair[0], pair[1]);
+        let end = move |mut times: ResMut<FrameTimes>| times.end(set, Instant::now());
+        app.add_systems(schedule, end.after(set).before(next));
+    }
 }
 
 #[cfg(test)]

@@ -36,9 +36,10 @@
 //! - [`equations`]: the equation and its parts as pure functions, in `f32` or `f64`, defined at every edge.
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`record`]: lights, materials and instances as whatever draws reads them.
+//! - [`Viewport`] and [`Layers`]: several cameras in one picture, and what each sees.
 //! - [`Choices`]: the names of shadings, reflectances and intensity policies, listed once.
 //! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
-//! - [`Shown`], [`propagation`]: what is hidden; whether transforms are propagated.
+//! - [`Shown`], [`Cameras`], [`propagation`]: what is shown; which camera draws; whether transforms are propagated.
 //! - [`homogeneous`]: light positions as four coordinates.
 //!
 //! No GPU, no window, no file is touched.
@@ -81,6 +82,7 @@ mod frequency;
 pub mod homogeneous;
 mod intensity;
 mod invalid;
+mod layers;
 mod light_colors;
 mod light_tree;
 pub mod lights;
@@ -104,6 +106,7 @@ mod shown;
 mod tolerance;
 mod vertex_colors;
 mod view;
+mod viewport;
 mod visibility;
 
 pub use alpha::AlphaMode;
@@ -120,6 +123,7 @@ pub use field::{Described, Field, FieldPlace, FieldValue};
 pub use frequency::Frequency;
 pub use intensity::Intensity;
 pub use invalid::{Fields, InvalidValue, Problem};
+pub use layers::Layers;
 pub use lights::{Attenuation, Cone, DirectionalLight, HemisphereLight, LightComponent, PointLight, SpotLight};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
@@ -140,4 +144,7 @@ pub use vertex_colors::VertexColors;
 pub use view::View;
 #[cfg(feature = "ecs")]
 pub use view::{Framing, TightFit};
+#[cfg(feature = "ecs")]
+pub use viewport::{CameraTurn, Cameras, SharedPart, SharingCameras, current_camera};
+pub use viewport::{Load, Part, Viewport};
 pub use visibility::Visibility;

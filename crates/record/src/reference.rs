@@ -1,17 +1,21 @@
 //! Frames by the reference renderer.
 
+use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use bevy_app::App;
 use bevy_color::LinearRgba;
-use bevy_ecs::prelude::{Resource, World};
+use bevy_ecs::prelude::{Entity, Resource, World};
+use bevy_ecs::system::SystemState;
 use bevy_math::UVec2;
-use halfway_lighting::{Camera, Edges, Intensity, Samples};
+use halfway_lighting::{
+    Camera, CameraTurn, Edges, Intensity, Load, Samples, SharedPart, SharingCameras, current_camera,
+};
 use halfway_reference::{Mode, Oracle, OracleError};
-use halfway_render::{Picture, Pixels, Surfaces, draw_background, draw_edges};
+use halfway_render::{Picture, Pixels, RenderError, Surfaces, draw_background, draw_edges, draw_kept};
 use image::DynamicImage;
 
-use crate::recording::{FrameToDraw, RecordError, camera};
+use crate::recording::{FrameToDraw, RecordError};
 
 /// Draws frames with the reference renderer: in f64 on the CPU, without a graphics adapter.
 ///
@@ -38,9 +42,9 @@ pub struct ReferenceDrawing {
     pub supersampling: Option<u32>,
 }
 
-/// The divisor of the App's last picture, where it was divided.
-#[derive(Resource)]
-struct LastDivisor(f64);
+/// The divisors of the last picture of each camera, where it was divided.
+#[derive(Resource, Default)]
+struct LastDivisors(HashMap<Entity, f64>);
 
 impl ReferenceDrawing {
     /// Runs the App once and draws it. `progress` is called with the number of finished tiles of the picture and of all
@@ -55,7 +59,33 @@ impl ReferenceDrawing {
         progress: &(dyn Fn(u32, u32) -> ControlFlow<()> + Sync),
     ) -> Result<Picture, RecordError> {
         app.update();
-        let camera = camera(app);
+        let parts = sharing(app.world_mut(), frame.size);
+        if parts.is_empty() {
+            return self.of_camera(app, frame, None, progress);
+        }
+        let mut whole: Option<Picture> = None;
+        for SharedPart { camera, corner, size, load } in parts {
+            let (corner, size) = (corner.into(), size.into());
+            app.insert_resource(CameraTurn(Some(camera)));
+            let kept = whole.as_ref().filter(|_| load == Load::Keep).map(|whole| whole.part(corner, size));
+            let part = self.of_camera(app, FrameToDraw { size, ..frame }, kept.as_ref(), progress);
+            app.insert_resource(CameraTurn(None));
+            let part = part?;
+            whole.get_or_insert_with(|| part.black(frame.size)).put(corner, &part)?;
+        }
+        Ok(whole.ok_or(RenderError::NoCamera)?)
+    }
+
+    /// The picture of the camera to draw, over what is `kept` of other cameras.
+    fn of_camera(
+        &self,
+        app: &mut App,
+        frame: FrameToDraw,
+        kept: Option<&Picture>,
+        progress: &(dyn Fn(u32, u32) -> ControlFlow<()> + Sync),
+    ) -> Result<Picture, RecordError> {
+        let entity = current_camera(app.world_mut()).map_err(|_| RenderError::NoCamera)?;
+        let camera = *app.world().get::<Camera>(entity).ok_or(RenderError::NoCamera)?;
         let supersampling = self.supersampling.unwrap_or(match camera.samples {
             Samples::One => 1,
             Samples::Four => 2,
@@ -64,20 +94,24 @@ impl ReferenceDrawing {
             .with_mode(self.mode)
             .with_supersampling(supersampling)
             .with_clamping(frame.pixels == Pixels::Byte)
-            .after(app.world().get_resource::<LastDivisor>().map(|last| last.0));
+            .after(app.world().get_resource::<LastDivisors>().and_then(|last| last.0.get(&entity).copied()));
         let image = oracle.draw_with(progress).map_err(|_| RecordError::Stopped(frame.number))?;
-        app.world_mut().remove_resource::<LastDivisor>();
-        if let Some(divisor) = image.divisor() {
-            app.insert_resource(LastDivisor(divisor));
-        }
+        let mut last = app.world_mut().get_resource_or_init::<LastDivisors>();
+        match image.divisor() {
+            Some(divisor) => last.0.insert(entity, divisor),
+            None => last.0.remove(&entity),
+        };
         let mut picture = match frame.pixels {
             Pixels::Byte => Picture::Byte(DynamicImage::from(image.to_bytes(camera.encoding)).into_rgba8()),
             Pixels::Float => Picture::Float(image.to_float()),
         };
         let world = app.world_mut();
-        if !camera.background_is_plain() {
-            let shares = background_shares(world, frame.size, supersampling)?;
-            draw_background(&mut picture, &shares, &camera);
+        if kept.is_some() || !camera.background_is_plain() {
+            let shares = background_shares(world, (entity, camera), frame.size, supersampling)?;
+            match kept {
+                Some(kept) => draw_kept(&mut picture, &shares, &camera, kept),
+                None => draw_background(&mut picture, &shares, &camera),
+            }
         }
         if world.query::<&Edges>().iter(world).next().is_some() {
             // Edges are those of the mesh, whatever is drawn for it.
@@ -92,20 +126,25 @@ impl ReferenceDrawing {
     }
 }
 
+/// The cameras that share a picture of this size.
+fn sharing(world: &mut World, size: UVec2) -> Vec<SharedPart> {
+    let mut cameras = SystemState::<SharingCameras>::new(world);
+    cameras.get(world).map(|cameras| cameras.parts(size.to_array())).unwrap_or_default()
+}
+
 /// How much of the background is seen in each pixel: what a white one adds to a black one.
-fn background_shares(world: &mut World, size: UVec2, supersampling: u32) -> Result<Vec<f32>, OracleError> {
-    let mut cameras = world.query::<&mut Camera>();
-    let Some(before) = cameras.iter(world).next().copied() else { return Ok(Vec::new()) };
+fn background_shares(
+    world: &mut World,
+    (entity, camera): (Entity, Camera),
+    size: UVec2,
+    supersampling: u32,
+) -> Result<Vec<f32>, OracleError> {
     let mut drawn = |background| {
-        for mut camera in cameras.iter_mut(world) {
-            *camera = Camera { background, intensity: Intensity::Clamp, ..before };
-        }
+        world.entity_mut(entity).insert(Camera { background, intensity: Intensity::Clamp, ..camera });
         Ok(Oracle::new(world, size)?.with_supersampling(supersampling).with_clamping(true).draw().to_float())
     };
     let pictures = [LinearRgba::BLACK, LinearRgba::WHITE].map(&mut drawn);
-    for mut camera in cameras.iter_mut(world) {
-        *camera = before;
-    }
+    world.entity_mut(entity).insert(camera);
     let [black, white] = pictures;
     let pixels = black?.into_raw().into_iter().zip(white?.into_raw());
     Ok(pixels.step_by(4).map(|(black, white)| white - black).collect())

@@ -7,22 +7,26 @@ use bevy_ecs::prelude::World;
 use halfway_frame::error::RenderError;
 use halfway_frame::passes::{Passes, Phase};
 use halfway_frame::view::camera::View;
-use halfway_lighting::Camera;
+use halfway_lighting::{Camera, Encoding};
+use image::Rgba;
 
 /// Puts the camera's background behind the newest frame's picture, where it is more than one opaque colour: where nothing
 /// is drawn, and in part where blended surfaces and the edges of surfaces cover a pixel in part. Colours are those of what
-/// is seen, not multiplied by the opacity.
+/// is seen, not multiplied by the opacity. A picture that is `kept` takes the background's place.
 ///
 /// # Errors
 /// Those of drawing how much of the background is seen.
-pub(crate) fn put_behind(world: &mut World, picture: &mut Picture) -> Result<(), RenderError> {
+pub(crate) fn put_behind(world: &mut World, picture: &mut Picture, kept: Option<&Picture>) -> Result<(), RenderError> {
     let Some(camera) = world.get_resource::<View>().and_then(|view| view.camera) else { return Ok(()) };
     let is_sky = world.get_resource::<Passes>().is_some_and(|passes| passes.has(Phase::Sky));
-    if is_sky || camera.background_is_plain() {
+    if is_sky || kept.is_none() && camera.background_is_plain() {
         return Ok(());
     }
     let shares = background_shares(world)?;
-    draw_background(picture, &shares, &camera);
+    match kept {
+        Some(kept) => draw_kept(picture, &shares, &camera, kept),
+        None => draw_background(picture, &shares, &camera),
+    }
     Ok(())
 }
 
@@ -34,6 +38,35 @@ pub fn draw_background(picture: &mut Picture, shares: &[f32], camera: &Camera) {
     let (width, height) = picture.dimensions();
     let rows = (0..height).map(|row| camera.background_at((f64::from(row) + 0.5) / f64::from(height)));
     let behind = rows.flat_map(|color| std::iter::repeat_n(color, width as usize));
+    draw_behind(picture, shares, camera, behind);
+}
+
+/// The same with a picture in place of the background, of the same size and values and in the camera's encoding: for a
+/// camera that keeps what others before it have drawn.
+pub fn draw_kept(picture: &mut Picture, shares: &[f32], camera: &Camera, kept: &Picture) {
+    match kept {
+        Picture::Float(kept) => {
+            let behind = kept.pixels().map(|&Rgba([red, green, blue, alpha])| LinearRgba { red, green, blue, alpha });
+            draw_behind(picture, shares, camera, behind);
+        }
+        Picture::Byte(kept) => {
+            let decoded = decoded(camera.encoding);
+            let behind = kept.pixels().map(|&Rgba([red, green, blue, alpha])| {
+                let [red, green, blue] = [red, green, blue].map(|value| decoded[usize::from(value)]);
+                LinearRgba { red, green, blue, alpha: f32::from(alpha) / 255.0 }
+            });
+            draw_behind(picture, shares, camera, behind);
+        }
+    }
+}
+
+/// The linear intensities of the bytes.
+fn decoded(encoding: Encoding) -> [f32; 256] {
+    std::array::from_fn(|byte| encoding.decode(byte as f64 / 255.0) as f32)
+}
+
+/// Puts a colour behind each pixel.
+fn draw_behind(picture: &mut Picture, shares: &[f32], camera: &Camera, behind: impl Iterator<Item = LinearRgba>) {
     let seen = shares.iter().zip(behind).map(|(&share, behind)| (share, behind));
     match picture {
         Picture::Float(image) => {
@@ -44,7 +77,7 @@ pub fn draw_background(picture: &mut Picture, shares: &[f32], camera: &Camera) {
         }
         Picture::Byte(image) => {
             let encoding = camera.encoding;
-            let decoded: [f32; 256] = std::array::from_fn(|byte| encoding.decode(byte as f64 / 255.0) as f32);
+            let decoded = decoded(encoding);
             let byte = |share: f64| (share * 255.0).round() as u8;
             for (pixel, (share, behind)) in image.pixels_mut().zip(seen).filter(|(_, (share, _))| *share > 0.0) {
                 let [red, green, blue, _] = pixel.0;

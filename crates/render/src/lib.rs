@@ -21,9 +21,10 @@ mod plugin;
 mod quantities;
 mod replaced;
 mod taken;
+mod views;
 
 pub use adapter::Adapter;
-pub use background::draw_background;
+pub use background::{draw_background, draw_kept};
 pub use choice::AdapterChoice;
 pub use cpu::canvas::{Canvas, CanvasTarget};
 pub use cpu::device::Cpu;
@@ -38,7 +39,7 @@ pub use gpu::pipelines::compile::Compile;
 #[cfg(feature = "wgpu")]
 pub use gpu::surface::{SurfaceLost, SurfaceTarget};
 #[cfg(feature = "wgpu")]
-pub use gpu::texture::{Load, TextureTarget};
+pub use gpu::texture::TextureTarget;
 #[cfg(feature = "wgpu")]
 pub use gpu::timer::GpuTimer;
 pub use halfway_frame::error::RenderError;
@@ -50,6 +51,7 @@ pub use halfway_frame::times::{FrameTimes, SetTimes};
 pub use halfway_frame::view::camera::View;
 pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 pub use halfway_frame::why_empty::{EmptyReason, why_empty};
+pub use halfway_lighting::Load;
 pub use headless::Headless;
 pub use legend::Legend;
 pub use lines::draw_edges;

@@ -4,8 +4,10 @@ use crate::cpu::canvas::{Canvas, CanvasTarget};
 #[cfg(feature = "wgpu")]
 use crate::gpu::{attachments::Target, device::Gpu, read_back::ReadBack};
 use crate::picture::Picture;
+use crate::views::Views;
 use bevy_ecs::prelude::{ResMut, Resource, World};
 use bevy_ecs::schedule::InternedScheduleLabel;
+use bevy_math::UVec2;
 use halfway_frame::error::RenderError;
 use halfway_frame::report::FrameReport;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,12 +22,15 @@ enum Pending {
     Copied(ReadBack),
     /// The CPU has drawn it; `None` once it is taken.
     There(Option<Picture>),
+    /// It is put together of the pictures of several cameras.
+    Together { size: UVec2, parts: Vec<(UVec2, PendingPicture)>, arrived: Vec<Option<Picture>> },
 }
 
 impl PendingPicture {
     /// Starts to copy the newest headless picture; later frames do not change what arrives. It is as the drawer left it:
     /// opaque, and without the lines of [`Edges`](halfway_lighting::Edges), which
-    /// [`take_picture`](crate::take_picture) and [`render_picture`](crate::render_picture) add.
+    /// [`take_picture`](crate::take_picture) and [`render_picture`](crate::render_picture) add. Cameras that
+    /// [keep](halfway_lighting::Load::Keep) what is there clear it.
     ///
     /// In a system that runs before the frame of its update is drawn, in `Update` say, that is the picture of the update
     /// before: the log says so once. Ask after [`RenderSet::Deliver`](crate::RenderSet::Deliver), or after the update.
@@ -42,14 +47,41 @@ impl PendingPicture {
     }
 
     fn of_newest_frame(world: &World) -> Result<Self, RenderError> {
+        let Some(views) = world.get_resource::<Views>().filter(|views| !views.is_empty()) else {
+            return Self::of_camera(world);
+        };
+        #[cfg(feature = "wgpu")]
+        if let (Some(gpu), Some(first)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) {
+            let parts = views.targets(first).map(|(place, target)| Ok((place.corner, Self::of_target(gpu, target)?)));
+            return Ok(Self::together(views.size(), parts.collect::<Result<_, _>>()?));
+        }
+        let first = canvas(world)?;
+        let parts = views.canvases(first).map(|(place, canvas)| Ok((place.corner, Self::of_canvas(canvas)?)));
+        Ok(Self::together(views.size(), parts.collect::<Result<_, _>>()?))
+    }
+
+    /// Starts to copy the picture of the camera whose turn it is.
+    pub(crate) fn of_camera(world: &World) -> Result<Self, RenderError> {
         #[cfg(feature = "wgpu")]
         if let (Some(gpu), Some(target)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) {
-            let texture = target.picture().ok_or(RenderError::NoPicture)?;
-            return Ok(Self(Pending::Copied(ReadBack::start(gpu, texture)?)));
+            return Self::of_target(gpu, target);
         }
-        let canvas = world.get_resource::<Canvas>().filter(|_| !world.contains_resource::<CanvasTarget>());
-        let picture = canvas.ok_or(RenderError::NoPicture)?.picture()?;
-        Ok(Self(Pending::There(Some(picture))))
+        Self::of_canvas(canvas(world)?)
+    }
+
+    #[cfg(feature = "wgpu")]
+    fn of_target(gpu: &Gpu, target: &Target) -> Result<Self, RenderError> {
+        let texture = target.picture().ok_or(RenderError::NoPicture)?;
+        Ok(Self(Pending::Copied(ReadBack::start(gpu, texture)?)))
+    }
+
+    fn of_canvas(canvas: &Canvas) -> Result<Self, RenderError> {
+        Ok(Self(Pending::There(Some(canvas.picture()?))))
+    }
+
+    fn together(size: UVec2, parts: Vec<(UVec2, Self)>) -> Self {
+        let arrived = vec![None; parts.len()];
+        Self(Pending::Together { size, parts, arrived })
     }
 
     /// The picture if it has arrived; `None` before, and after it was taken.
@@ -61,6 +93,18 @@ impl PendingPicture {
             #[cfg(feature = "wgpu")]
             Pending::Copied(copy) => copy.try_take(),
             Pending::There(picture) => Ok(picture.take()),
+            Pending::Together { size, parts, arrived } => {
+                for ((_, part), arrived) in
+                    parts.iter_mut().zip(arrived.iter_mut()).filter(|(_, there)| there.is_none())
+                {
+                    *arrived = part.try_take()?;
+                }
+                if !arrived.iter().all(Option::is_some) {
+                    return Ok(None);
+                }
+                let corners = std::mem::take(parts).into_iter().map(|(corner, _)| corner);
+                put_together(*size, corners.zip(std::mem::take(arrived).into_iter().flatten()))
+            }
         }
     }
 
@@ -74,8 +118,32 @@ impl PendingPicture {
             #[cfg(feature = "wgpu")]
             Pending::Copied(copy) => copy.wait(),
             Pending::There(picture) => picture.ok_or(RenderError::NoPicture),
+            Pending::Together { size, parts, arrived } => {
+                let there = parts.into_iter().zip(arrived).map(|((corner, part), there)| match there {
+                    Some(picture) => Ok((corner, picture)),
+                    None => Ok((corner, part.wait()?)),
+                });
+                put_together(size, there.collect::<Result<Vec<_>, _>>()?)?.ok_or(RenderError::NoPicture)
+            }
         }
     }
+}
+
+fn canvas(world: &World) -> Result<&Canvas, RenderError> {
+    let canvas = world.get_resource::<Canvas>().filter(|_| !world.contains_resource::<CanvasTarget>());
+    canvas.ok_or(RenderError::NoPicture)
+}
+
+/// The pictures of several cameras in one, each over those before it; `None` without any.
+fn put_together(
+    size: UVec2,
+    parts: impl IntoIterator<Item = (UVec2, Picture)>,
+) -> Result<Option<Picture>, RenderError> {
+    let mut whole = None;
+    for (corner, part) in parts {
+        whole.get_or_insert_with(|| part.black(size)).put(corner, &part)?;
+    }
+    Ok(whole)
 }
 
 /// Runs the schedule that draws, and waits for the picture as the drawer left it.
@@ -83,17 +151,24 @@ impl PendingPicture {
 /// # Errors
 /// As [`take_picture`](crate::take_picture).
 pub(crate) fn draw_frame(world: &mut World) -> Result<Picture, RenderError> {
-    let schedule = world.get_resource::<DrawnIn>().ok_or(RenderError::NoPicture)?.0;
-    world.try_run_schedule(schedule).map_err(|_| RenderError::NoPicture)?;
-    drawn_picture(world)
+    run_frame(world)?;
+    check_frame(world)?;
+    PendingPicture::request(world)?.wait()
 }
 
-/// The picture of the frame that was drawn, as the drawer left it, or the frame's first error.
-pub(crate) fn drawn_picture(world: &World) -> Result<Picture, RenderError> {
-    if let Some(error) = world.get_resource::<FrameReport>().and_then(|report| report.errors.first()) {
-        return Err(error.clone());
-    }
-    PendingPicture::request(world)?.wait()
+/// Runs the schedule that draws.
+///
+/// # Errors
+/// [`RenderError::NoPicture`] without one.
+pub(crate) fn run_frame(world: &mut World) -> Result<(), RenderError> {
+    let schedule = world.get_resource::<DrawnIn>().ok_or(RenderError::NoPicture)?.0;
+    world.try_run_schedule(schedule).map_err(|_| RenderError::NoPicture)
+}
+
+/// Passes on the first error of the newest frame.
+pub(crate) fn check_frame(world: &World) -> Result<(), RenderError> {
+    let first = world.get_resource::<FrameReport>().and_then(|report| report.errors.first());
+    first.map_or(Ok(()), |error| Err(error.clone()))
 }
 
 /// The schedule that draws a frame.

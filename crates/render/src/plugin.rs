@@ -9,12 +9,13 @@ use crate::headless::{self, Headless};
 use crate::logged::{self, Logged};
 use crate::pending::{DrawnIn, PictureAge};
 use crate::replaced;
+use crate::views::{self, Views};
 use bevy_app::{App, First, Plugin, PostUpdate};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
 use halfway_frame::report::FrameReport;
 use halfway_frame::sets::RenderSet;
-use halfway_frame::{FramePlugin, ReadCamera};
+use halfway_frame::{FramePlugin, FurtherCamera, ReadCamera, add_further_camera};
 
 /// Draws every entity with a [`Mesh3d`](halfway_mesh::Mesh3d) through the world's [`Camera`](halfway_lighting::Camera), once a run of its
 /// schedule.
@@ -70,16 +71,26 @@ impl Plugin for RenderPlugin {
 
 /// Adds the stages of a frame, for both renderers.
 pub(crate) fn add_drawers(app: &mut App, schedule: InternedScheduleLabel) {
-    app.add_plugins(FramePlugin { schedule }).init_resource::<AdapterChoice>().init_resource::<Headless>().add_systems(
-        schedule,
-        (
-            headless::measure.in_set(RenderSet::View).before(ReadCamera),
-            (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
-        ),
-    );
+    app.add_plugins(FramePlugin { schedule })
+        .init_resource::<AdapterChoice>()
+        .init_resource::<Headless>()
+        .init_resource::<Views>()
+        .add_systems(
+            schedule,
+            (
+                headless::measure.in_set(RenderSet::View).before(views::begin),
+                views::begin.in_set(RenderSet::View).before(ReadCamera),
+                views::draw_further.in_set(RenderSet::Deliver).run_if(Views::are_there),
+                (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
+            ),
+        );
     cpu::add(app, schedule);
     #[cfg(feature = "wgpu")]
     gpu::plugin::add(app, schedule);
+    add_further_camera(app);
+    cpu::add_stages(app, FurtherCamera.intern());
+    #[cfg(feature = "wgpu")]
+    gpu::plugin::add_stages(app, FurtherCamera.intern());
 }
 
 /// Opens an adapter for headless pictures unless one is open. A failure is reported and retried in every frame, so that

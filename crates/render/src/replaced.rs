@@ -5,6 +5,7 @@ use crate::cpu::device::Cpu;
 use crate::cpu::meshes::{self as mesh_pieces, MeshPieces};
 #[cfg(feature = "wgpu")]
 use crate::gpu::{device::Gpu, state::GpuState};
+use crate::views::Views;
 use bevy_ecs::prelude::*;
 use halfway_frame::geometry::meshes::Geometries;
 use halfway_frame::geometry::workshop::Workshop;
@@ -27,7 +28,7 @@ pub(crate) fn forget(
     mut drawn_by: Local<Option<DrawnBy>>,
     (mut workshop, mut geometries): (ResMut<Workshop>, ResMut<Geometries>),
     mut pieces: ResMut<MeshPieces>,
-    mut canvas: ResMut<Canvas>,
+    (mut canvas, mut views): (ResMut<Canvas>, ResMut<Views>),
 ) {
     let draws = cpu.map(|_| DrawnBy::Cpu);
     #[cfg(feature = "wgpu")]
@@ -40,6 +41,7 @@ pub(crate) fn forget(
     geometries.forget_all();
     *pieces = MeshPieces::default();
     *canvas = Canvas::default();
+    views.forget();
     #[cfg(feature = "wgpu")]
     on_gpu.forget();
 }

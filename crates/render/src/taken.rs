@@ -3,14 +3,16 @@
 use crate::background;
 use crate::legend::Legend;
 use crate::lines;
-use crate::pending::{draw_frame, drawn_picture};
+use crate::pending::{PendingPicture, check_frame, run_frame};
 use crate::picture::Picture;
+use crate::views::{self, Views};
 use bevy_app::App;
 use bevy_ecs::prelude::World;
 use halfway_frame::error::RenderError;
 #[cfg(doc)]
 use halfway_frame::report::FrameReport;
 use halfway_frame::view::camera::View;
+use halfway_lighting::Load;
 
 /// Runs one frame of `app` ([`App::update`]) and waits for its picture: systems run and time passes. [`take_picture`]
 /// draws the world as it is. Every problem of the frame is an error here: the first of [`FrameReport::errors`] is
@@ -20,8 +22,7 @@ use halfway_frame::view::camera::View;
 /// The frame's first error, or why its picture could not be read back.
 pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
     app.update();
-    let picture = drawn_picture(app.world())?;
-    finished(app.world_mut(), picture)
+    finished(app.world_mut())
 }
 
 /// Draws the world as it is now and waits for its picture. Only the schedule that draws runs: no `Startup`, no
@@ -32,8 +33,7 @@ pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
 ///
 /// ```
 /// use bevy_app::App;
-/// use bevy_math::UVec2;
-/// use bevy_transform::{TransformPlugin, components::Transform};
+/// /// use bevy_transform::{TransformPlugin, components::Transform};
 /// use halfway_asset::Assets;
 /// use halfway_lighting::{Camera, Material};
 /// use halfway_mesh::{Mesh, Mesh3d, UvSphere};
@@ -60,18 +60,39 @@ pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
 /// The frame's first error, or why its picture could not be read back; [`RenderError::NoPicture`] in a world without
 /// a [`RenderPlugin`](crate::RenderPlugin).
 pub fn take_picture(world: &mut World) -> Result<Picture, RenderError> {
-    let picture = draw_frame(world)?;
-    finished(world, picture)
+    run_frame(world)?;
+    finished(world)
 }
 
-/// The picture with its background, its lines and its legend.
-fn finished(world: &mut World, mut picture: Picture) -> Result<Picture, RenderError> {
-    background::put_behind(world, &mut picture)?;
-    if lines::are_there(world) {
-        lines::draw_over_frame(world, &mut picture)?;
-    }
+/// The picture of the newest frame with its backgrounds, its lines and its legend, of all cameras that share it.
+fn finished(world: &mut World) -> Result<Picture, RenderError> {
+    check_frame(world)?;
+    let size = world.get_resource::<Views>().filter(|views| !views.is_empty()).map(Views::size);
+    let mut whole = None;
+    views::for_each(world, |world, place| {
+        let mut picture = PendingPicture::of_camera(world)?.wait()?;
+        let Some(size) = size else {
+            finish(world, &mut picture, None)?;
+            whole = Some(picture);
+            return Ok(());
+        };
+        let whole = whole.get_or_insert_with(|| picture.black(size));
+        let kept = (place.load == Load::Keep).then(|| whole.part(place.corner, place.size));
+        finish(world, &mut picture, kept.as_ref())?;
+        whole.put(place.corner, &picture)
+    })?;
+    let mut picture = whole.ok_or(RenderError::NoPicture)?;
     if let (Some(legend), Some(view)) = (world.get_resource::<Legend>(), world.get_resource::<View>()) {
         legend.draw(&mut picture, view.camera.unwrap_or_default().encoding);
     }
     Ok(picture)
+}
+
+/// Adds a camera's background, or what the part that it draws `kept`, and its lines to its picture.
+fn finish(world: &mut World, picture: &mut Picture, kept: Option<&Picture>) -> Result<(), RenderError> {
+    background::put_behind(world, picture, kept)?;
+    if lines::are_there(world) {
+        lines::draw_over_frame(world, picture)?;
+    }
+    Ok(())
 }

@@ -37,6 +37,7 @@ mod surface;
 mod track;
 mod transform;
 mod view;
+mod viewport;
 
 pub use animation::{AnimationPlugin, AnimationSystems, SceneTime};
 pub use defaults::{default_lights, framing_camera, rig_lights};
@@ -63,3 +64,4 @@ pub use surface::{
 pub use track::{AnimatedKey, Interpolation, KeyFrame, TrackEntry};
 pub use transform::{TransformEntry, TransformMatrix, TransformParts};
 pub use view::{CameraEntry, IntrinsicsEntry};
+pub use viewport::ViewportEntry;

@@ -14,6 +14,7 @@ use crate::entry::Entry;
 use crate::keys::{CheckKeys, Fill, Key, Keys, Object, Presence, Visit, Words, keys, keys_schema, words};
 use crate::named::NameOrIndex;
 use crate::track::{Animate, AnimatedKey, TrackEntry, three};
+use crate::viewport::LAYERS;
 
 /// A light. In JSON, the keys of `cone` and `light` stand beside the others, as far as the kind of light has them
 /// ([`LightKind`]): other keys are refused in a file, and other fields here are ignored.
@@ -33,6 +34,8 @@ pub struct LightEntry {
     pub attach: AttachEntry,
     /// Its name; no other camera, light or object has the same.
     pub name: Option<String>,
+    /// The numbers of the layers that it belongs to, each 0 to 31; without any, 0.
+    pub layers: Option<Vec<u32>>,
     /// How its position, direction and colors change in time.
     pub animation: Vec<TrackEntry>,
 }
@@ -159,7 +162,7 @@ words! {
 }
 
 /// The keys of every light.
-const SHARED: [&str; 7] = ["kind", "ambient", "diffuse", "specular", "attach", "name", "animation"];
+const SHARED: [&str; 8] = ["kind", "ambient", "diffuse", "specular", "attach", "name", "layers", "animation"];
 
 impl LightKind {
     fn name(self) -> &'static str {
@@ -188,7 +191,7 @@ impl LightKind {
 
     /// The keys that it has beside those of its kind alone.
     fn shared_keys(self) -> &'static [&'static str] {
-        if self == Self::Hemisphere { &["kind", "attach", "name", "animation"] } else { &SHARED }
+        if self == Self::Hemisphere { &["kind", "attach", "name", "layers", "animation"] } else { &SHARED }
     }
 
     fn has(self, key: &str) -> bool {
@@ -212,8 +215,8 @@ impl LightEntry {
             }
         };
         let (light, hemisphere) = (PointLight::white(), HemisphereLight::white());
-        let (attach, name, animation) = (AttachEntry::World, None, Vec::new());
-        Self { kind, position, cone, light, hemisphere, attach, name, animation }
+        let (attach, name, layers, animation) = (AttachEntry::World, None, None, Vec::new());
+        Self { kind, position, cone, light, hemisphere, attach, name, layers, animation }
     }
 }
 
@@ -271,6 +274,8 @@ const POSITION: Key = key("position", "Where the light is.");
 const POSITION_AND_W: Key = key("position", "(x, y, z, w), not all 0.");
 const NAME: Key = key("name", "Its name; no other camera, light or object has the same. null: none.");
 const ANIMATION: Key = key("animation", "How its position, direction and colors change in time.");
+const LAYERS_KEY: Key =
+    Key { limits: LAYERS, ..key("layers", "The numbers of the layers that it belongs to, each 0 to 31; null: 0.") };
 const ATTACH: Key = key("attach", "Whose frame position and direction are in, and with what the light moves.");
 
 const fn key(name: &'static str, meaning: &'static str) -> Key {
@@ -288,7 +293,7 @@ impl Keys for LightEntry {
     }
 
     fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
-        let Self { kind, position, cone, light, hemisphere, attach, name, animation } = self;
+        let Self { kind, position, cone, light, hemisphere, attach, name, layers, animation } = self;
         let [x, y, z, _] = *position;
         let own = &mut KeysOfKind { kind: *kind, visitor };
         own.key(&KIND, Some(kind))?;
@@ -301,6 +306,7 @@ impl Keys for LightEntry {
         described::visit(light, own)?;
         described::visit(hemisphere, own)?;
         own.key(&ATTACH, Some(attach))?;
+        own.key(&LAYERS_KEY, Some(layers))?;
         own.key(&ANIMATION, Some(animation))
     }
 
@@ -312,6 +318,7 @@ impl Keys for LightEntry {
         described::fill(&mut self.hemisphere, from)?;
         from.key(&ATTACH, |attach| self.attach = attach)?;
         from.key(&NAME, |name| self.name = name)?;
+        from.key(&LAYERS_KEY, |layers| self.layers = layers)?;
         from.key(&ANIMATION, |animation| self.animation = animation)
     }
 }
@@ -322,11 +329,14 @@ impl Object for LightEntry {
     fn with_given(self, given: &[&str]) -> Result<Self, String> {
         let kind = self.kind;
         if let Some(key) = given.iter().find(|key| !kind.has(key)) {
-            let shared = kind.shared_keys().iter().filter(|key| !["kind", "attach", "name", "animation"].contains(key));
+            let shared = kind
+                .shared_keys()
+                .iter()
+                .filter(|key| !["kind", "attach", "name", "layers", "animation"].contains(key));
             let keys: Vec<_> = kind.keys().iter().chain(shared).copied().collect();
             let (name, keys) = (kind.name(), keys.join(", "));
             return Err(format!(
-                "`{key}` does not belong to a {name} light, whose keys are {keys}, attach, name and animation"
+                "`{key}` does not belong to a {name} light, whose keys are {keys}, attach, name, layers and animation"
             ));
         }
         // The defaults of position and cone depend on the kind.

@@ -13,6 +13,7 @@ use crate::mesh::MeshEntry;
 use crate::solid::SolidEntry;
 use crate::track::{Animate, TrackEntry};
 use crate::transform::TransformEntry;
+use crate::viewport::LAYERS;
 
 keys! {
     /// A mesh somewhere in the scene, with a material.
@@ -48,6 +49,9 @@ keys! {
         solid: Option<SolidEntry> = None,
         /// Lines along the edges of the mesh; null: the scene's.
         edges: Option<EdgesEntry> = None,
+        /// The numbers of the layers that it belongs to, each 0 to 31: a camera sees the objects and lights that share a
+        /// layer with it. null: 0.
+        layers: Option<Vec<u32>> = None => LAYERS,
         /// How translation, rotation and scale change in time.
         animation: Vec<TrackEntry> = Vec::new(),
         [left out]

@@ -29,6 +29,7 @@ use crate::named::NameOrIndex;
 use crate::object::ObjectEntry;
 use crate::placement::Placement;
 use crate::view::CameraEntry;
+use crate::viewport::insert_layers;
 use halfway_lighting::LightComponent;
 
 /// The entities of a scene that was spawned.
@@ -37,6 +38,8 @@ pub struct Spawned {
     /// The camera, with the scene's [`Shading`](halfway_lighting::Shading) and
     /// [`Reflectance`](halfway_lighting::Reflectance).
     pub camera: Entity,
+    /// All cameras that share the picture, in the file's order, `camera` first; else `camera` alone.
+    pub cameras: Vec<Entity>,
     /// The entity of every object of the file, in its order: it carries the object's `Name` and its frame. A shape of
     /// one part has its mesh on it, a model of several parts has one child for each.
     pub objects: Vec<Entity>,
@@ -55,7 +58,8 @@ pub struct Spawned {
 /// Paths in the scene are relative to `base_dir`, the folder of the scene file. The size of the picture is
 /// not put into the world: it belongs to the target.
 ///
-/// - Of several cameras the first is spawned; [`spawn_seen_from`] chooses another.
+/// - Of several cameras those with a `viewport` are spawned, to share the picture; where none has one, the first.
+///   [`spawn_seen_from`] chooses one, which then has the picture for itself.
 /// - Where the scene has no camera, one is made that frames all objects ([`framing_camera`]).
 /// - Where an object has no material, its model's own materials are used, translated by
 ///   [`import`](crate::import), with their double-sidedness, blending and masks unless the object says otherwise.
@@ -110,17 +114,22 @@ fn spawn_seen(
         .map(|(i, object)| Ok((object, shapes.load_once(object, i)?)))
         .collect::<Result<Vec<_>, SceneError>>()?;
 
-    let seen = SeenFrom::choose(scene, &objects, wanted)?;
-    if !matches!(seen, SeenFrom::Model { .. }) {
+    let sharing = |_| scene.all_cameras().filter(|camera| camera.viewport.is_some()).cloned().map(SeenFrom::Entry);
+    let sharing: Vec<_> = wanted.is_none().then_some(()).into_iter().flat_map(sharing).collect();
+    let is_shared = !sharing.is_empty();
+    let seen = if is_shared { sharing } else { vec![SeenFrom::choose(scene, &objects, wanted)?] };
+    if !seen.iter().any(|seen| matches!(seen, SeenFrom::Model { .. })) {
         shapes.warnings.append(&mut shapes.unused_cameras);
     }
 
     world.insert_resource(GlobalAmbient(LinearRgba::from_f32_array_no_alpha(scene.ambient)));
-    let own_tolerance = if let SeenFrom::Entry(entry) = &seen { entry.tolerance } else { None };
-    if let Some(tolerance) = own_tolerance.or(scene.tolerance) {
+    if let Some(tolerance) = scene.tolerance {
         world.insert_resource(ViewTolerance(tolerance));
     }
-    let camera = spawn_camera(scene, &objects, &seen, world);
+    let number = |number| is_shared.then_some(number);
+    let each = seen.iter().enumerate().map(|(i, seen)| spawn_camera(scene, &objects, (seen, number(i)), world));
+    let cameras: Vec<Entity> = each.collect();
+    let camera = cameras[0];
     let (mut handles, mut textures) = (Handles::new(), TextureHandles::new());
     let frames = objects
         .iter()
@@ -133,8 +142,8 @@ fn spawn_seen(
     if let Some(environment) = &scene.environment {
         environment.spawn(base_dir, &mut warnings, world);
     }
-    let is_animated = [&[camera][..], &frames, &lights].concat().iter().any(|entity| is_animated(*entity, world));
-    Ok(Spawned { camera, objects: frames, lights, warnings, is_animated })
+    let is_animated = [&cameras[..], &frames, &lights].concat().iter().any(|entity| is_animated(*entity, world));
+    Ok(Spawned { camera, cameras, objects: frames, lights, warnings, is_animated })
 }
 
 pub(crate) type Object<'a> = (&'a ObjectEntry, Rc<ObjectShape>);
@@ -206,7 +215,13 @@ impl SeenFrom {
     }
 }
 
-fn spawn_camera(scene: &SceneFile, objects: &[Object], seen: &SeenFrom, world: &mut World) -> Entity {
+/// Spawns a camera; with a number, it is one of several that share the picture.
+fn spawn_camera(
+    scene: &SceneFile,
+    objects: &[Object],
+    (seen, number): (&SeenFrom, Option<usize>),
+    world: &mut World,
+) -> Entity {
     let default = CameraEntry::default();
     let (entry, name, projection, place) = match seen {
         SeenFrom::Entry(entry) => (entry, entry.name.as_deref(), entry.projection(), entry.transform()),
@@ -224,7 +239,9 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], seen: &SeenFrom, world: &
         encoding: scene.output,
         intensity: scene.intensity,
     };
-    let [width, height] = scene.size;
+    let viewport = number.zip(entry.viewport).map(|(number, viewport)| viewport.component(number));
+    let part = viewport.and_then(|viewport| viewport.rectangle(scene.size));
+    let [width, height] = part.map_or(scene.size, |[_, _, width, height]| [width, height]);
     let framing = match seen {
         SeenFrom::Entry(entry) => entry.framing(),
         SeenFrom::Model { .. } => None,
@@ -238,6 +255,9 @@ fn spawn_camera(scene: &SceneFile, objects: &[Object], seen: &SeenFrom, world: &
     let mut entity = world.spawn((name, camera, place, view));
     insert_some(&mut entity, Animated::camera(entry));
     insert_some(&mut entity, scene.edges.as_ref().map(EdgesEntry::component));
+    insert_some(&mut entity, entry.tolerance);
+    insert_some(&mut entity, viewport);
+    insert_layers(&mut entity, entry.layers.as_ref());
     entity.id()
 }
 
@@ -412,6 +432,7 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     insert_some(entity, object.reflectance);
     // All parts are cut from one solid.
     insert_some(entity, object.edges.as_ref().map(EdgesEntry::component));
+    insert_layers(entity, object.layers.as_ref());
     insert_some(entity, object.solid.as_ref().map(|solid| solid.for_part(&part.object_from_part)));
     // The default needs no component.
     insert_some(entity, Some(object.vertex_colors).filter(|colors| *colors != VertexColors::default()));
@@ -517,6 +538,7 @@ fn spawn_lights(
         let name = entry.name.clone().unwrap_or_else(|| format!("lights[{i}]"));
         let light = spawn_light(name, component, transform, parent, world);
         insert_some(&mut world.entity_mut(light), Animated::light(entry));
+        insert_layers(&mut world.entity_mut(light), entry.layers.as_ref());
         light
     };
     entries.iter().enumerate().map(spawn_entry).collect()

@@ -13,6 +13,7 @@ use crate::check::{Check, KeyProblem, Limits, direction, in_range};
 use crate::described;
 use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, Words, keys, named_words, words};
 use crate::track::{Animate, AnimatedKey, FIELD_OF_VIEW, TrackEntry, three};
+use crate::viewport::{LAYERS, ViewportEntry};
 
 words! {
     /// `output`: the encoding of the channels of an 8- or 16-bit picture.
@@ -207,6 +208,11 @@ keys! {
         reflectance: Option<Reflectance> = None,
         /// Coverage samples a pixel, 1 or 4; null: the scene's.
         samples: Option<u32> = None => Limits::OneOf(&[1, 4], "expected 1 or 4"),
+        /// The part of the picture that it draws, where several cameras share the picture; null: all of it.
+        viewport: Option<ViewportEntry> = None,
+        /// The numbers of the layers that it belongs to, each 0 to 31: a camera sees the objects and lights that share a
+        /// layer with it. null: 0.
+        layers: Option<Vec<u32>> = None => LAYERS,
         /// How its keys change in time: position, target, up, and `fov_y_deg` or `height`.
         animation: Vec<TrackEntry> = Vec::new(),
         [left out]

@@ -216,12 +216,19 @@ const TIMES_AND_CAMERAS: &[(&[&str], &[&str])] = &[
     (&["render", "fine.json", "-o", "a.png", "--turntable", "0"], &["--turntable", "1..=100000"]),
     (&["render", "fine.json", "-o", "a.png", "--camera", "top"], &["--camera", "\"top\"", "fine.json", "any"]),
     (&["render", "two.json", "-o", "a.png", "--camera", "top"], &["\"top\"; there are 0, 1 \"side\""]),
+    (&["verify", "shared.json"], &["shared.json", "share the picture", "--camera"]),
+    (&["render", "beyond.json", "-o", "a.png"], &["beyond.json", "viewport.fractions", "beyond the picture"]),
     (&["verify", "two.json", "--camera", "2"], &["\"2\"; there are 0, 1 \"side\""]),
 ];
 
 const SCENES: &[(&str, &str)] = &[
     ("fine.json", r#"{"objects": [{"mesh": {"teapot": {"divisions": 2}}}]}"#),
     ("two.json", r#"{"camera": {}, "cameras": [{"name": "side"}]}"#),
+    (
+        "shared.json",
+        r#"{"camera": {"viewport": {}}, "cameras": [{"viewport": {"pixels": [0, 0, 8, 8], "load": "keep"}}]}"#,
+    ),
+    ("beyond.json", r#"{"camera": {"viewport": {"fractions": [0.5, 0, 0.75, 1]}}}"#),
     ("light.json", "{\n\"lights\": [{\"kind\": \"point\", \"attenuation\": [0, 0, -1]}]}"),
     ("size.json", "{\n\"size\": [0, 4]}"),
     ("sphere.json", "{\n\"objects\": [{\"mesh\": {\"uv_sphere\": {\"segments\": 4000000000}}}]}"),

@@ -95,6 +95,34 @@ fn animations_are_played_and_cameras_chosen() {
     assert_ne!(read("walk.png"), read("plan.png"));
 }
 
+/// Each part of the picture is the picture of its camera at its size, and options that frame leave one camera.
+#[test]
+fn cameras_share_a_picture_or_have_it_for_themselves() {
+    let folder = folder("shared");
+    let scene = asset("examples/scenes/four_views.json");
+    let draw = |name: &str, more: &[&str]| {
+        succeeds(&folder, &[&["render", &scene, "-o", name], more].concat());
+        image::open(folder.join(name)).expect("the picture was written").into_rgba8()
+    };
+    let shared = draw("shared.png", &["--size", "96x54"]);
+    let part = |left, top| image::imageops::crop_imm(&shared, left, top, 48, 27).to_image();
+    let corners = [("perspective", 0, 0), ("top", 48, 0), ("front", 0, 27), ("right", 48, 27)];
+    for (camera, left, top) in corners {
+        let alone = draw(&format!("{camera}.png"), &["--size", "48x27", "--camera", camera]);
+        assert!(part(left, top) == alone, "{camera}");
+    }
+    let reference = draw("reference.png", &["--size", "96x54", "--reference"]);
+    let differs = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 8);
+    let differing = shared.pixels().zip(reference.pixels()).filter(|pair| differs(*pair)).count();
+    // Four samples a pixel are elsewhere in a pixel of the reference.
+    assert!(differing < 400, "{differing} of {} pixels", 96 * 54);
+    let views = [&["--view", "top"][..], &["--turntable", "2", "--frames", "0..1"]].map(|more| {
+        let name = format!("{}.png", more[0].trim_start_matches('-'));
+        draw(&name, &[&["--size", "48x27"], more].concat())
+    });
+    assert!(views[1] == draw("first.png", &["--size", "48x27", "--camera", "0"]) && views[0] != views[1]);
+}
+
 // As promised by docs/many-machines.md.
 #[test]
 fn two_processes_draw_the_bytes_of_one() {

@@ -11,9 +11,7 @@ use crate::view::matrices::{ModelView, NormalMatrix, Visible};
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
 use halfway_asset::{AssetId, Assets};
-use halfway_lighting::{
-    BackMaterial, Faces, InvalidValue, Material, Reflectance, Shading, Terms, Tolerance, ViewTolerance,
-};
+use halfway_lighting::{BackMaterial, Faces, InvalidValue, Material, Reflectance, Shading, Terms, Tolerance};
 use halfway_mesh::{Mesh, Mesh3d};
 
 type ObjectComponents = (
@@ -37,7 +35,6 @@ pub struct ShownObjects<'w, 's> {
     pub(super) geometries: Res<'w, Geometries>,
     visible: Res<'w, Visible>,
     pub(super) view: Res<'w, View>,
-    of_view: Res<'w, ViewTolerance>,
     pub(super) surroundings: Res<'w, Surroundings>,
 }
 
@@ -93,7 +90,7 @@ impl ShownObjects<'_, '_> {
             wrong_paint: wrong_paint(components),
             lacks_environment,
             terms: shown_terms(shading, &self.view),
-            tolerance: tolerance.copied().unwrap_or(self.of_view.0),
+            tolerance: tolerance.copied().unwrap_or(self.view.tolerance),
             model_view: placed.0,
             normal_matrix: placed.1,
         })

@@ -12,7 +12,7 @@ use bevy_ecs::prelude::*;
 use bevy_math::{Vec2, Vec4};
 use bevy_platform::collections::HashMap;
 use halfway_asset::{AssetId, Assets};
-use halfway_lighting::{AlphaMode, Frequency, Shading, Terms, Tolerance, VertexColors, ViewTolerance};
+use halfway_lighting::{AlphaMode, Frequency, Shading, Terms, Tolerance, VertexColors};
 use halfway_mesh::{Mesh, Mesh3d};
 use halfway_texture::{MapKind, Maps, SolidTexture, SurfaceMap, UvSet};
 use std::sync::Arc;
@@ -223,7 +223,6 @@ pub(crate) fn lay_out(
     visible: Res<Visible>,
     view: Res<View>,
     surroundings: Res<Surroundings>,
-    of_view: Res<ViewTolerance>,
     waits: Res<WaitsForLevels>,
     mut workshop: ResMut<Workshop>,
     mut geometries: ResMut<Geometries>,
@@ -236,7 +235,7 @@ pub(crate) fn lay_out(
         let paint = Paint::new(mesh, paint, surroundings.are_there());
         let terms = shown_terms(shading, &view);
         let wanted = (handle.id(), Form::new(terms, &paint));
-        let pixels = tolerance.unwrap_or(&of_view.0).pixels;
+        let pixels = tolerance.unwrap_or(&view.tolerance).pixels;
         let has_levels = pixels > 0.0 && shades_pixels_alone(terms) && wanted.1.may_have_levels();
         if last.replace((wanted, has_levels)) != Some((wanted, has_levels)) {
             let levels = if has_levels { workshop.levels(wanted.0, mesh, waits.0) } else { None };

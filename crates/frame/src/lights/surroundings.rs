@@ -6,7 +6,7 @@ use crate::view::camera::View;
 use bevy_ecs::prelude::*;
 use bevy_math::DMat3;
 use halfway_asset::Assets;
-use halfway_lighting::{Fields, Shown};
+use halfway_lighting::{Fields, Load, Shown};
 use halfway_texture::environment::SurroundingsData;
 use halfway_texture::environment::{EnvironmentLight, EnvironmentMap};
 
@@ -63,6 +63,6 @@ fn placed(light: &EnvironmentLight, map: EnvironmentMap, view: &View) -> Surroun
     let rows = columns.transpose().to_cols_array_2d().map(|row| row.map(|number| number as f32));
     let mean = map.harmonics().polynomial().map(|color| color.map(|channel| channel as f32));
     let pixel = f64::from(view.pixel_angle);
-    let sky = light.sky.then(|| map.level_of(pixel).max(0.0) as f32);
+    let sky = (light.sky && view.load == Load::Clear).then(|| map.level_of(pixel).max(0.0) as f32);
     SurroundingsData { strength: light.strength, rows, mean, sky, map }
 }

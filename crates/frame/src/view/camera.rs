@@ -5,13 +5,17 @@ use crate::report::FrameReport;
 use bevy_ecs::prelude::*;
 use bevy_math::{DAffine3, DMat3, DVec3, UVec2};
 use bevy_transform::components::{GlobalTransform, Transform};
-use halfway_lighting::{Camera, Lens, Propagation, Reflectance, Shading, propagation};
+use halfway_lighting::{
+    Camera, Cameras, Lens, Load, Propagation, Reflectance, Shading, Tolerance, ViewTolerance, Viewport, propagation,
+};
 
 /// The view of a frame. Holds after [`RenderSet::View`](crate::sets::RenderSet::View).
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct View {
     /// The camera, validated; `None` while there is none to draw with.
     pub camera: Option<Camera>,
+    /// Its entity.
+    pub entity: Option<Entity>,
     /// World to eye: the inverse of the camera's rotation and translation, in f64.
     pub eye_from_world: DAffine3,
     /// Eye to clip, in world units. Its depth buffer spans the visible objects after
@@ -25,7 +29,11 @@ pub struct View {
     pub shading: Shading,
     /// The reflectance of objects that name none.
     pub reflectance: Reflectance,
-    /// Counts changes of `eye_from_world`; equal epochs mean equal matrices.
+    /// Whether the camera's background and sky are drawn, or other cameras' pictures stay.
+    pub load: Load,
+    /// The tolerance of objects that have none.
+    pub tolerance: Tolerance,
+    /// Changes with `eye_from_world`; equal epochs mean equal matrices, also of several cameras.
     pub epoch: u64,
     /// log₂ of the length of a world unit in the eye space of the shaders; 0 but for scenes so large or so small that
     /// the squares of their distances leave f32.
@@ -59,29 +67,43 @@ type CameraQuery<'w, 's> = Query<
         &'static GlobalTransform,
         Option<&'static Shading>,
         Option<&'static Reflectance>,
+        Option<&'static Tolerance>,
+        Option<&'static Viewport>,
         Option<&'static Name>,
     ),
 >;
 
+/// Counts the transforms of views.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub(crate) struct Epoch(u64);
+
+#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn update(
+    which: Cameras,
     cameras: CameraQuery,
     size: Res<PictureSize>,
+    of_view: Res<ViewTolerance>,
+    mut epoch: ResMut<Epoch>,
     mut view: ResMut<View>,
     mut report: ResMut<FrameReport>,
 ) {
     report.begin();
     view.camera = None;
-    let mut all = cameras.iter();
-    let Some((entity, camera, transform, shading, reflectance, name)) = all.next() else {
+    let current = which
+        .current()
+        .map_err(|count| if count == 0 { RenderError::NoCamera } else { RenderError::ManyCameras(count) });
+    let found = match current {
+        Ok(camera) => cameras.get(camera),
+        Err(error) => {
+            report.errors.push(error);
+            return;
+        }
+    };
+    let Ok((entity, camera, transform, shading, reflectance, tolerance, viewport, name)) = found else {
         report.errors.push(RenderError::NoCamera);
         return;
     };
-    let more = all.count();
-    if more > 0 {
-        report.errors.push(RenderError::ManyCameras(more + 1));
-        return;
-    }
-    if let Err(source) = camera.validate() {
+    if let Err(source) = camera.validate().and_then(|()| viewport.map_or(Ok(()), Viewport::validate)) {
         report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
         return;
     }
@@ -96,18 +118,22 @@ pub(crate) fn update(
         return;
     }
     if eye_from_world != view.eye_from_world {
-        view.epoch += 1;
+        epoch.0 += 1;
+        view.epoch = epoch.0;
     }
     let lens: Lens = camera.projection.lens(size.to_array());
     let pixels = size.as_vec2().to_array();
     *view = View {
         camera: Some(*camera),
+        entity: Some(entity),
         eye_from_world,
         lens,
         pixels_at_unit_w: lens.pixels_at_unit_w(pixels),
         pixel_angle: lens.pixel_angle(pixels),
         shading: shading.copied().unwrap_or_default(),
         reflectance: reflectance.copied().unwrap_or_default(),
+        load: viewport.map_or(Load::Clear, |viewport| viewport.load),
+        tolerance: tolerance.copied().unwrap_or(of_view.0),
         epoch: view.epoch,
         unit_exponent: 0,
     };

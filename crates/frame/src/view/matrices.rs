@@ -86,7 +86,7 @@ pub(crate) fn select(
         return;
     }
     let is_shown = shown.by_entity();
-    let of_camera = cameras.iter().next();
+    let of_camera = view.entity.and_then(|camera| cameras.get(camera).ok());
     let mut farthest = 0.0;
     let mut depths = [f64::INFINITY, f64::NEG_INFINITY];
     for (entity, mesh, transform, order, name, edges) in objects.iter().filter(|(entity, ..)| is_shown(*entity)) {

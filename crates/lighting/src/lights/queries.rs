@@ -67,7 +67,7 @@ impl LightQueries<'_, '_> {
         !self.changed.is_empty() || !self.disabled.is_empty()
     }
 
-    /// Whether anything in the world is hidden, and so perhaps a light.
+    /// Whether anything in the world is hidden or in layers, and so perhaps a light.
     pub fn may_be_hidden(&self) -> bool {
         self.shown.hides_any()
     }

@@ -73,6 +73,9 @@ impl Oracle {
 
     /// Reads the current scene of `world`, for a picture of `size` pixels.
     ///
+    /// Of several cameras, the one whose [turn](halfway_lighting::CameraTurn) it is sees it: for its part of a picture that
+    /// cameras share, with the size of the part.
+    ///
     /// `GlobalTransform`s have to be current, as they are after a frame of the App. Without a `GlobalAmbient` resource
     /// its default is used.
     ///

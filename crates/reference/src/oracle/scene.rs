@@ -8,9 +8,9 @@ use halfway_asset::Assets;
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::lights::{LightFrame, LightQueries, LightSource};
 use halfway_lighting::{
-    AlphaMode, BackMaterial, Camera, Edges, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Material,
-    Propagation, Reflectance, Samples, Shading, Shown, VertexColors, light_direction, light_position, light_up,
-    propagation,
+    AlphaMode, BackMaterial, Camera, Edges, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Load, Material,
+    Propagation, Reflectance, Samples, Shading, Shown, VertexColors, Viewport, current_camera, light_direction,
+    light_position, light_up, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{Maps, Pyramid, SolidTexture, SurfaceMap, Texture};
@@ -44,7 +44,10 @@ impl OracleScene {
         require_propagation(world)?;
         let defaults = view_defaults(world, size)?;
         let (ambient, lights) = lights(world, &defaults.view)?;
-        let environment = OracleEnvironment::from_world(world, &defaults.view)?;
+        let mut environment = OracleEnvironment::from_world(world, &defaults.view)?;
+        if let (Load::Keep, Some(environment)) = (defaults.load, &mut environment) {
+            environment.sky = None;
+        }
         let solids = solids(world, &defaults)?;
         let depth_span = depth_span(&defaults.view, &solids);
         let viewer = defaults.camera.eye();
@@ -90,23 +93,33 @@ struct ViewDefaults {
     view: PictureView,
     shading: Shading,
     reflectance: Reflectance,
+    edges: Option<Edges>,
+    load: Load,
 }
 
 fn view_defaults(world: &mut World, size: UVec2) -> Result<ViewDefaults, OracleError> {
-    let mut query =
-        world.query::<(Entity, &Camera, &GlobalTransform, Option<&Shading>, Option<&Reflectance>, Option<&Name>)>();
-    let mut cameras = query.iter(world);
-    let (entity, camera, transform, shading, reflectance, name) = cameras.next().ok_or(OracleError::NoCamera)?;
-    let more = cameras.count();
-    if more > 0 {
-        return Err(OracleError::ManyCameras(more + 1));
-    }
+    let none = |count| if count == 0 { OracleError::NoCamera } else { OracleError::ManyCameras(count) };
+    let entity = current_camera(world).map_err(none)?;
+    type View<'a> = (
+        &'a Camera,
+        &'a GlobalTransform,
+        Option<&'a Shading>,
+        Option<&'a Reflectance>,
+        Option<&'a Viewport>,
+        Option<&'a Edges>,
+        Option<&'a Name>,
+    );
+    let mut query = world.query::<View>();
+    let (camera, transform, shading, reflectance, viewport, edges, name) =
+        query.get(world, entity).map_err(|_| OracleError::NoCamera)?;
     camera.validate().map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;
     Ok(ViewDefaults {
         camera: *camera,
         view: PictureView::new(camera, transform, size).ok_or_else(|| bad_transform(entity, name, transform))?,
         shading: shading.copied().unwrap_or_default(),
         reflectance: reflectance.copied().unwrap_or_default(),
+        edges: edges.copied(),
+        load: viewport.map_or(Load::Clear, |viewport| viewport.load),
     })
 }
 
@@ -171,9 +184,7 @@ fn solids(world: &mut World, defaults: &ViewDefaults) -> Result<Vec<Solid>, Orac
     let shown = shown.get(world).expect(ALWAYS);
     let is_shown = shown.by_entity();
     // A wireframe has no surface.
-    let of_camera = world.try_query_filtered::<&Edges, With<Camera>>();
-    let of_camera = of_camera.and_then(|mut edges| edges.iter(world).next());
-    let has_surface = |own: Option<&Edges>| own.or(of_camera).is_none_or(|edges| edges.surface);
+    let has_surface = |own: Option<&Edges>| own.or(defaults.edges.as_ref()).is_none_or(|edges| edges.surface);
     let meshes = (world.get_resource::<Assets<Mesh>>(), world.get_resource::<Assets<Texture>>());
     let mut objects: Vec<_> =
         query.iter(world).filter(|(entity, .., (_, _, edges))| is_shown(*entity) && has_surface(*edges)).collect();

@@ -30,6 +30,8 @@ pub struct Canvas {
     clear_tiles: ClearTiles,
     /// Whether it holds a frame.
     drawn: bool,
+    /// The pictures of all cameras that share the window, and its size; of size 0 where one camera has it for itself.
+    shared: (UVec2, Vec<u8>),
 }
 
 /// Values a pixel.
@@ -39,7 +41,29 @@ impl Canvas {
     /// Width and height in pixels, and the bytes of the newest frame: red, green, blue and 255, row by row from the
     /// top. `None` without a frame, or for one in floating point.
     pub fn bytes(&self) -> Option<(UVec2, &[u8])> {
-        (self.drawn && !self.bytes.is_empty()).then_some((self.size, &self.bytes[..]))
+        let (size, shared) = &self.shared;
+        if *size != UVec2::ZERO {
+            return Some((*size, &shared[..]));
+        }
+        Some((self.size, self.own_bytes()?))
+    }
+
+    /// The bytes that were drawn into it.
+    pub(crate) fn own_bytes(&self) -> Option<&[u8]> {
+        (self.drawn && !self.bytes.is_empty()).then_some(&self.bytes[..])
+    }
+
+    /// The memory of a picture that all cameras share, black.
+    pub(crate) fn begin_shared(&mut self, size: UVec2) -> Result<Vec<u8>, RenderError> {
+        let mut shared = std::mem::take(&mut self.shared.1);
+        resize(&mut shared, CHANNELS * size.x as usize * size.y as usize)?;
+        shared.chunks_exact_mut(CHANNELS).for_each(|pixel| pixel.copy_from_slice(&[0, 0, 0, u8::MAX]));
+        Ok(shared)
+    }
+
+    /// Shows the picture that all cameras share until the next frame begins.
+    pub(crate) fn show_shared(&mut self, size: UVec2, shared: Vec<u8>) {
+        self.shared = (size, shared);
     }
 
     /// Begins a frame of this size.
@@ -47,7 +71,7 @@ impl Canvas {
     /// # Errors
     /// [`RenderError::Memory`]
     pub(crate) fn begin(&mut self, size: UVec2, is_float: bool, is_toned: bool) -> Result<(), RenderError> {
-        self.drawn = false;
+        (self.drawn, self.shared.0) = (false, UVec2::ZERO);
         if size != self.size || is_toned == self.drawn_floats.is_empty() {
             // The memory may have moved, too.
             self.clear_tiles = ClearTiles::default();

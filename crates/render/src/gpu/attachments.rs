@@ -5,9 +5,10 @@ use crate::gpu::format::{DEPTH_FORMAT, drawn_format, headless_format, is_float};
 use crate::gpu::passes::policy::PicturePasses;
 use crate::gpu::shaders::picture::PicturePolicyRecord;
 use crate::gpu::surface::{Lost, SurfaceLost, SurfaceTarget};
-use crate::gpu::texture::{Load, TextureTarget};
+use crate::gpu::texture::TextureTarget;
 use crate::headless::Headless;
 use crate::picture::Pixels;
+use crate::views::Views;
 use bevy_ecs::prelude::*;
 use bevy_math::{URect, UVec2};
 use halfway_frame::error::RenderError;
@@ -15,7 +16,7 @@ use halfway_frame::report::FrameReport;
 use halfway_frame::times::FrameTimes;
 use halfway_frame::values::{FrameValues, PixelValues, WaitsForLevels};
 use halfway_frame::view::camera::{PictureSize, View};
-use halfway_lighting::{AlphaMode, Camera, Encoding, Samples, Shown};
+use halfway_lighting::{AlphaMode, Camera, Encoding, Load, Samples, Shown};
 use halfway_mesh::Mesh3d;
 
 /// The target of the frame.
@@ -151,6 +152,7 @@ pub(crate) fn prepare(
     headless: Res<Headless>,
     surface: Option<ResMut<SurfaceTarget>>,
     texture: Option<Res<TextureTarget>>,
+    views: Res<Views>,
     view: Res<View>,
     size: Res<PictureSize>,
     alphas: Query<(Entity, &AlphaMode), With<Mesh3d>>,
@@ -201,7 +203,8 @@ pub(crate) fn prepare(
     let encodes = camera.encoding == Encoding::Srgb;
     let (format, given, delivery) = match (texture, surface) {
         (Some(texture), _) => {
-            if let Err(error) = texture.check(&gpu, &camera, (samples, blends)) {
+            let shared = if views.is_empty() { Ok(()) } else { Err(texture.shared()) };
+            if let Err(error) = shared.and_then(|()| texture.check(&gpu, &camera, (samples, blends))) {
                 report.errors.push(error);
                 return;
             }
@@ -214,6 +217,11 @@ pub(crate) fn prepare(
                 return;
             }
         },
+        // Each camera draws into a picture of its own, and all are copied to the window.
+        (None, Some(mut surface)) if !views.is_empty() => {
+            surface.pick_format(encodes);
+            (surface.format(), None, Delivery::Read)
+        }
         (None, Some(mut surface)) => {
             surface.pick_format(encodes);
             match times.at_display(|| surface.acquire(&gpu)) {

@@ -12,6 +12,7 @@ use crate::gpu::pipelines::cache::{self, Pipelines};
 use crate::gpu::texture;
 use crate::headless;
 use crate::replaced;
+use crate::views;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::InternedScheduleLabel;
@@ -25,9 +26,23 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
         .init_resource::<MeshBuffers>()
         .init_resource::<Buffers>()
         .init_resource::<Pipelines>();
+    add_stages(app, schedule);
+    app.add_systems(
+        schedule,
+        (
+            attachments::measure.in_set(View).after(headless::measure).before(views::begin),
+            encode::present.in_set(Deliver).after(views::draw_further).run_if(gpu_draws),
+            texture::refuse_on_cpu.in_set(View).after(cpu::draw::prepare).run_if(cpu_draws),
+            over::refuse_on_cpu.in_set(Draw).run_if(cpu_draws).run_if(over::is_any),
+        ),
+    );
+}
+
+/// Adds the systems of a camera's frame.
+pub(crate) fn add_stages(app: &mut App, schedule: InternedScheduleLabel) {
     add_backend::<Pipelines, _>(app, schedule, gpu_draws);
     let systems = (
-        attachments::prepare.in_set(View).after(replaced::forget),
+        attachments::prepare.in_set(View).after(ReadCamera).after(replaced::forget),
         cache::begin.in_set(Illuminate).before(lit_patches::illuminate::<Pipelines>),
         (
             mesh_buffers::upload,
@@ -40,17 +55,8 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
             .chain()
             .in_set(Upload),
         encode::draw.in_set(Draw),
-        encode::present.in_set(Deliver),
     );
-    app.add_systems(
-        schedule,
-        (
-            attachments::measure.in_set(View).after(headless::measure).before(ReadCamera),
-            systems.run_if(gpu_draws),
-            texture::refuse_on_cpu.in_set(View).after(cpu::draw::prepare).run_if(cpu_draws),
-            over::refuse_on_cpu.in_set(Draw).run_if(cpu_draws).run_if(over::is_any),
-        ),
-    );
+    app.add_systems(schedule, systems.run_if(gpu_draws));
 }
 
 /// Whether a device draws.

@@ -64,6 +64,14 @@ impl SurfaceTarget {
         self.config.format = format;
     }
 
+    /// The same for a picture that others are copied to.
+    pub(crate) fn acquire_for_copies(&mut self, gpu: &Gpu) -> Result<Option<wgpu::SurfaceTexture>, Lost> {
+        let usage = self.config.usage | wgpu::TextureUsages::COPY_DST;
+        self.stale |= usage != self.config.usage;
+        self.config.usage = usage;
+        self.acquire(gpu)
+    }
+
     /// The next picture of the surface; `None` means skip this frame.
     pub(crate) fn acquire(&mut self, gpu: &Gpu) -> Result<Option<wgpu::SurfaceTexture>, Lost> {
         self.acquired = false;

@@ -7,7 +7,7 @@ use bevy_math::{URect, UVec2};
 use halfway_frame::error::RenderError;
 use halfway_frame::report::FrameReport;
 use halfway_frame::values::FrameValues;
-use halfway_lighting::{Camera, Encoding, Samples};
+use halfway_lighting::{Camera, Encoding, Load, Samples};
 
 /// A texture of an engine's own; while this resource is there it is the target, before
 /// [`SurfaceTarget`](crate::SurfaceTarget) and [`Headless`](crate::Headless). The render schedule makes the frame
@@ -85,16 +85,6 @@ pub struct TextureTarget {
     pub depth: Option<wgpu::TextureView>,
 }
 
-/// How a frame begins in a [`TextureTarget`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Load {
-    /// The whole texture becomes the camera's background, and the depth infinitely far, beside the viewport too.
-    #[default]
-    Clear,
-    /// The frame is drawn over what the texture holds, where the depth that is given does not hide it.
-    Keep,
-}
-
 impl TextureTarget {
     /// The whole view of this format and size in pixels, cleared.
     pub fn new(view: wgpu::TextureView, format: wgpu::TextureFormat, size: UVec2) -> Self {
@@ -122,6 +112,12 @@ pub(crate) fn refuse_on_cpu(
 }
 
 impl TextureTarget {
+    /// The error of several cameras.
+    pub(crate) fn shared(&self) -> RenderError {
+        let reason = "several cameras share the picture; expected one, with the target's `viewport` for a part of it";
+        RenderError::BadTarget { format: format!("{:?}", self.format), reason: reason.into() }
+    }
+
     /// # Errors
     /// [`RenderError::BadTarget`] where a frame cannot be drawn as the camera and the objects ask.
     ///

@@ -4,14 +4,14 @@ mod segment;
 
 use crate::lines::segment::{Reached, Segment};
 use crate::picture::Picture;
-use crate::quantities::{SurfacePoint, Surfaces};
+use crate::quantities::{SurfacePoint, Surfaces, no_camera};
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::{DVec2, DVec3, IVec2, UVec2};
 use bevy_transform::components::GlobalTransform;
 use halfway_asset::Assets;
 use halfway_frame::error::{RenderError, label};
-use halfway_lighting::{Camera, Edges, Encoding, HiddenEdges, Lens, Shown, WhichEdges};
+use halfway_lighting::{Camera, Cameras, Edges, Encoding, HiddenEdges, Lens, Shown, WhichEdges, current_camera};
 use halfway_mesh::{Mesh, Mesh3d, MeshEdge, SpawnOrder};
 
 /// Dashes and gaps, in pixels.
@@ -38,10 +38,12 @@ pub(crate) fn draw_over_frame(world: &mut World, picture: &mut Picture) -> Resul
 /// [`take_picture`](crate::take_picture) and [`render_picture`](crate::render_picture) have done it.
 ///
 /// # Errors
-/// [`RenderError::Invalid`] for an invalid [`Edges`], [`RenderError::NoCamera`].
+/// [`RenderError::Invalid`] for an invalid [`Edges`], [`RenderError::NoCamera`], and [`RenderError::ManyCameras`] where it
+/// is no camera's [turn](halfway_lighting::CameraTurn).
 pub fn draw_edges(world: &mut World, picture: &mut Picture, surfaces: &Surfaces) -> Result<(), RenderError> {
     let objects = edged_objects(world)?;
-    let encoding = world.query::<&Camera>().iter(world).next().ok_or(RenderError::NoCamera)?.encoding;
+    let camera = current_camera(world).map_err(no_camera)?;
+    let encoding = world.get::<Camera>(camera).ok_or(RenderError::NoCamera)?.encoding;
     let drawing = Drawing { surfaces };
     for same in objects.chunk_by(|a, b| a.edges == b.edges) {
         let mut coverage = vec![0.0_f32; surfaces.size().element_product() as usize];
@@ -74,10 +76,15 @@ fn edged_objects(world: &mut World) -> Result<Vec<EdgedObject>, RenderError> {
             Option<&'static Name>,
         ),
     >;
-    let mut state =
-        bevy_ecs::system::SystemState::<(Objects, Query<&Edges, With<Camera>>, Shown, Res<Assets<Mesh>>)>::new(world);
-    let (objects, of_camera, shown, meshes) = state.get(world).map_err(|_| RenderError::NoPicture)?;
-    let of_camera = of_camera.iter().next();
+    let mut state = bevy_ecs::system::SystemState::<(
+        Objects,
+        Query<&Edges, With<Camera>>,
+        Cameras,
+        Shown,
+        Res<Assets<Mesh>>,
+    )>::new(world);
+    let (objects, of_cameras, cameras, shown, meshes) = state.get(world).map_err(|_| RenderError::NoPicture)?;
+    let of_camera = cameras.current().ok().and_then(|camera| of_cameras.get(camera).ok());
     let is_shown = shown.by_entity();
     let mut found = Vec::new();
     for (entity, mesh, transform, order, own, name) in &objects {

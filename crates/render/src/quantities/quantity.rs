@@ -2,6 +2,7 @@
 
 use crate::quantities::redrawn::{self, Shows};
 use crate::quantities::surfaces::{SurfacePoint, Surfaces};
+use crate::views::{self, Views};
 use bevy_ecs::prelude::World;
 use bevy_math::UVec2;
 use halfway_frame::error::RenderError;
@@ -106,6 +107,11 @@ impl Quantity {
         }
     }
 
+    /// Whether it is a whole number.
+    fn is_number(self) -> bool {
+        matches!(self, Self::Id | Self::Part | Self::Triangle)
+    }
+
     /// Its number in a point of a surface, if it is one.
     fn number(self, point: &SurfacePoint) -> Option<u32> {
         match self {
@@ -172,8 +178,48 @@ pub enum QuantityValues {
 /// # Errors
 /// Those of [`Surfaces::take`].
 pub fn take_quantities(world: &mut World, quantities: &[Quantity]) -> Result<Vec<QuantityImage>, RenderError> {
-    let mut surfaces = None;
-    quantities.iter().map(|&quantity| image(world, quantity, &mut surfaces)).collect()
+    let whole = world.get_resource::<Views>().filter(|views| !views.is_empty()).map(Views::size);
+    let parts = views::for_each(world, |world, place| {
+        let mut surfaces = None;
+        let images = quantities.iter().map(|&quantity| image(world, quantity, &mut surfaces));
+        Ok::<_, RenderError>((place.corner, images.collect::<Result<Vec<_>, _>>()?))
+    })?;
+    let Some(size) = whole else { return Ok(parts.into_iter().flat_map(|(_, images)| images).collect()) };
+    let mut together: Vec<_> = quantities.iter().map(|&quantity| QuantityImage::empty(quantity, size)).collect();
+    for (corner, images) in parts {
+        together.iter_mut().zip(images).for_each(|(whole, part)| whole.put(corner, &part));
+    }
+    Ok(together)
+}
+
+impl QuantityImage {
+    /// Background alone.
+    fn empty(quantity: Quantity, size: UVec2) -> Self {
+        let count = quantity.channels().len() * size.element_product() as usize;
+        let values = if quantity.is_number() {
+            QuantityValues::Numbers(vec![0; count])
+        } else {
+            QuantityValues::Floats(vec![0.0; count])
+        };
+        Self { quantity, size, values }
+    }
+
+    /// Puts the picture of a camera into that of all.
+    fn put(&mut self, corner: UVec2, part: &Self) {
+        fn copy<T: Copy>(whole: &mut [T], from: &[T], [start, stride, length]: [usize; 3]) {
+            for (row, from) in from.chunks_exact(length).enumerate() {
+                whole[start + row * stride..][..length].copy_from_slice(from);
+            }
+        }
+        let channels = self.quantity.channels().len();
+        let start = (corner.y * self.size.x + corner.x) as usize;
+        let rows = [start, self.size.x as usize, part.size.x as usize].map(|pixels| channels * pixels);
+        match (&mut self.values, &part.values) {
+            (QuantityValues::Floats(whole), QuantityValues::Floats(part)) => copy(whole, part, rows),
+            (QuantityValues::Numbers(whole), QuantityValues::Numbers(part)) => copy(whole, part, rows),
+            _ => {}
+        }
+    }
 }
 
 fn image(world: &mut World, quantity: Quantity, surfaces: &mut Option<Surfaces>) -> Result<QuantityImage, RenderError> {
@@ -203,7 +249,7 @@ fn of_picture(quantity: Quantity, drawn: &Rgba32FImage, push: impl Fn([f32; 4], 
 }
 
 fn of_surfaces(quantity: Quantity, surfaces: &Surfaces) -> QuantityImage {
-    let values = if matches!(quantity, Quantity::Id | Quantity::Part | Quantity::Triangle) {
+    let values = if quantity.is_number() {
         let number = |point: Option<SurfacePoint>| point.and_then(|point| quantity.number(&point)).unwrap_or(0);
         QuantityValues::Numbers(surfaces.iter().map(number).collect())
     } else {

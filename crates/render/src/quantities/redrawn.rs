@@ -151,9 +151,9 @@ impl Redrawn {
     }
 
     fn place_camera(&mut self, world: &mut World, shows: Shows) -> Result<(), RenderError> {
-        let camera = world.get_resource::<View>().and_then(|view| view.camera).ok_or(RenderError::NoPicture)?;
-        let mut cameras = world.query_filtered::<&GlobalTransform, With<Camera>>();
-        let transform = *cameras.iter(world).next().ok_or(RenderError::NoCamera)?;
+        let view = world.get_resource::<View>().ok_or(RenderError::NoPicture)?;
+        let (camera, entity) = view.camera.zip(view.entity).ok_or(RenderError::NoPicture)?;
+        let transform = *world.get::<GlobalTransform>(entity).ok_or(RenderError::NoCamera)?;
         let camera = Camera {
             background: if shows == Shows::Background { LinearRgba::WHITE } else { LinearRgba::BLACK },
             background_below: None,

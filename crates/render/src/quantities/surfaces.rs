@@ -1,6 +1,7 @@
 //! The surface that each pixel shows.
 
 use crate::quantities::redrawn::{self, Shows, numbers};
+use crate::views::{self, Views};
 use bevy_ecs::prelude::*;
 use bevy_math::{DAffine3, DMat3, DVec2, DVec3, UVec2, Vec3A};
 use bevy_platform::collections::HashMap;
@@ -9,7 +10,7 @@ use halfway_asset::Assets;
 use halfway_frame::error::RenderError;
 use halfway_frame::view::camera::{PictureSize, View, eye_from_world};
 use halfway_frame::view::matrices::{Visible, normal_matrix};
-use halfway_lighting::{Camera, Lens};
+use halfway_lighting::{Camera, Lens, current_camera};
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 /// The surface that the middle of each pixel shows, with all that is known of it.
@@ -100,7 +101,8 @@ pub struct SurfacePoint {
 
 impl Surfaces {
     /// The surfaces that the newest frame of this world shows, window or not. Objects are where they were when it was
-    /// drawn.
+    /// drawn. Where several cameras share the picture, those of the first; [`pick`] and
+    /// [`take_quantities`](crate::take_quantities) look at all of them.
     ///
     /// # Errors
     /// [`RenderError::NoPicture`] before the first frame; [`RenderError::TooLarge`] for meshes of more than 16,777,216
@@ -118,15 +120,15 @@ impl Surfaces {
     /// column and row.
     ///
     /// # Errors
-    /// [`RenderError::NoCamera`].
+    /// [`RenderError::NoCamera`]; [`RenderError::ManyCameras`] where it is no camera's [turn](halfway_lighting::CameraTurn).
     pub fn found_by(
         world: &mut World,
         size: UVec2,
         find: impl Fn(u32, u32) -> Option<(Entity, u32)>,
     ) -> Result<Self, RenderError> {
-        let mut cameras = world.query::<(&Camera, &GlobalTransform)>();
-        let (camera, transform) = cameras.iter(world).next().ok_or(RenderError::NoCamera)?;
-        let (camera, eye_from_world) = (*camera, eye_from_world(transform));
+        let entity = current_camera(world).map_err(no_camera)?;
+        let camera = *world.get::<Camera>(entity).ok_or(RenderError::NoCamera)?;
+        let eye_from_world = eye_from_world(world.get::<GlobalTransform>(entity).ok_or(RenderError::NoCamera)?);
         let mut entities = Vec::new();
         let mut numbers_of = HashMap::<Entity, u32>::default();
         let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| (x, y)));
@@ -277,12 +279,25 @@ fn places(world: &mut World) -> HashMap<Entity, [u32; 2]> {
     places
 }
 
-/// The surface in a pixel of the newest frame, as [`Surfaces::at`] has it: for a click.
+/// The surface in a pixel of the newest frame, as [`Surfaces::at`] has it: for a click. Where several cameras share the
+/// picture, that of the last one that draws in this pixel.
 ///
 /// # Errors
 /// Those of [`Surfaces::take`].
 pub fn pick(world: &mut World, x: u32, y: u32) -> Result<Option<SurfacePoint>, RenderError> {
-    Ok(Surfaces::take(world)?.at(x, y))
+    let at = |world: &mut World, x, y| Ok(Surfaces::take(world)?.at(x, y));
+    match world.get_resource::<Views>().filter(|views| !views.is_empty()).map(|views| views.showing(UVec2::new(x, y))) {
+        None => at(world, x, y),
+        Some(None) => Ok(None),
+        Some(Some(number)) => {
+            views::in_turn(world, number, |world, place| at(world, x - place.corner.x, y - place.corner.y))
+        }
+    }
+}
+
+/// The error of [`current_camera`].
+pub(crate) fn no_camera(count: usize) -> RenderError {
+    if count == 0 { RenderError::NoCamera } else { RenderError::ManyCameras(count) }
 }
 
 /// The weights of a triangle's corners where the ray from the origin meets it. Of a ray that passes beside it by a

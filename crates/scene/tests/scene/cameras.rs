@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use bevy_ecs::prelude::*;
 use bevy_math::{UVec2, Vec3};
 use bevy_transform::components::Transform;
-use halfway_lighting::{Camera, Film, Projection, Reflectance, Samples, Shading, Tolerance, ViewTolerance};
+use halfway_lighting::{
+    Camera, Film, Layers, Load, Projection, Reflectance, Samples, Shading, Tolerance, ViewTolerance, Viewport,
+};
 
 use crate::spawned::app;
 use halfway_scene::{SceneError, SceneFile, spawn, spawn_seen_from};
@@ -115,7 +117,8 @@ fn a_camera_is_chosen_by_its_name_or_its_number() {
         assert_eq!(camera.get::<Reflectance>(), Some(&reflectance));
         assert_eq!(camera.get::<Camera>().unwrap().samples, if is_plan { Samples::Four } else { Samples::One });
         let steps = if is_plan { 2.0 } else { 1.0 };
-        assert_eq!(world.resource::<ViewTolerance>().0, Tolerance { steps, ..Tolerance::EXACT });
+        let tolerance = camera.get::<Tolerance>().copied().unwrap_or(world.resource::<ViewTolerance>().0);
+        assert_eq!(tolerance, Tolerance { steps, ..Tolerance::EXACT });
         // The lights are on the camera that is drawn, and on the first object.
         let parent = |light: Entity| world.get::<ChildOf>(light).map(ChildOf::parent);
         assert_eq!(parent(spawned.lights[0]), Some(spawned.camera));
@@ -144,4 +147,58 @@ fn a_picture_of_any_shape_shows_what_an_orthographic_camera_of_gltf_sees() {
         assert_eq!(projection.half_extent(size), expected, "{}", UVec2::from_array(size));
     }
     std::fs::remove_dir_all(&dir).unwrap();
+}
+
+#[test]
+fn cameras_with_viewports_share_the_picture() {
+    let scene = r#"{
+        "size": [200, 100], "shading": "flat",
+        "camera": {"name": "alone"},
+        "cameras": [
+            {"name": "left", "viewport": {"fractions": [0, 0, 0.5, 1]}, "shading": "gouraud", "tolerance": {"steps": 2}},
+            {"name": "right", "viewport": {"pixels": [100, 0, 100, 50], "order": 3, "load": "keep"}, "layers": [0, 4],
+             "view": "top"}
+        ],
+        "lights": [{"kind": "point", "layers": [4]}],
+        "objects": [{"mesh": {"box": {}}, "layers": [0, 31]}, {"mesh": {"box": {}}}]
+    }"#;
+    let scene = SceneFile::from_json(scene, "test").unwrap();
+    assert_eq!(SceneFile::from_json(&scene.to_json().unwrap(), "again").unwrap(), scene);
+    let mut app = app();
+    let world = app.world_mut();
+    let spawned = spawn(&scene, Path::new(""), world).unwrap();
+    assert_eq!(world.query::<&Camera>().iter(world).count(), 2);
+    let [left, right] = spawned.cameras[..] else { panic!("two cameras") };
+    assert_eq!((spawned.camera, world.get::<Name>(left).unwrap().as_str()), (left, "left"));
+    let [first, second] = [left, right].map(|camera| *world.get::<Viewport>(camera).unwrap());
+    assert_eq!(first.part, Viewport::fractions([0.0, 0.0, 0.5, 1.0]).part);
+    assert_eq!((second.part, second.load), (Viewport::pixels([100, 0, 100, 50]).part, Load::Keep));
+    assert!(first.order < second.order && first.load == Load::Clear);
+    assert_eq!(world.get::<Shading>(left), Some(&Shading::Gouraud));
+    assert_eq!(world.get::<Shading>(right), Some(&Shading::Flat));
+    assert_eq!(world.get::<Tolerance>(left), Some(&Tolerance::steps(2.0)));
+    assert_eq!(world.get::<Tolerance>(right), None);
+    let layers = |entity| world.get::<Layers>(entity).copied();
+    assert_eq!([left, right].map(layers), [None, Some(Layers::layer(0).and(4))]);
+    assert_eq!(layers(spawned.lights[0]), Some(Layers::layer(4)));
+    assert_eq!([0, 1].map(|i| layers(spawned.objects[i])), [Some(Layers::layer(0).and(31)), None]);
+
+    // One that is chosen has the picture for itself.
+    let mut app = self::app();
+    let world = app.world_mut();
+    let spawned = spawn_seen_from(&scene, Path::new(""), "right", world).unwrap();
+    assert_eq!((spawned.cameras.len(), world.get::<Viewport>(spawned.camera)), (1, None));
+
+    for (viewport, expected) in [
+        (r#"{"fractions": [0.5, 0, 0.75, 1]}"#, "fractions"),
+        (r#"{"fractions": [0, 0, 0.5, 1], "pixels": [0, 0, 5, 5]}"#, "cannot stand beside"),
+        (r#"{"pixels": [0, 0, 0, 5]}"#, "no width"),
+        (r#"{"load": "blend"}"#, "load"),
+        (r#"{"order": 1001}"#, "order"),
+    ] {
+        let error = SceneFile::from_json(&format!("{{\"camera\": {{\"viewport\": {viewport}}}}}"), "test").unwrap_err();
+        assert!(error.to_string().contains(expected), "{viewport}: {error}");
+    }
+    let error = SceneFile::from_json(r#"{"objects": [{"mesh": {"box": {}}, "layers": [32]}]}"#, "test").unwrap_err();
+    assert!(error.to_string().contains("0 to 31"), "{error}");
 }

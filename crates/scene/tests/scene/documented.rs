@@ -148,6 +148,7 @@ fn the_page_has_the_keys_defaults_and_ranges_of_the_schema() {
         differences(&table(&page, "## The scene", 1), &definitions["Tolerance"], "tolerance"),
         differences(&table(&page, "## Camera", 0), &definitions["CameraEntry"], "camera"),
         differences(&table(&page, "## Camera", 1), &definitions["IntrinsicsEntry"], "intrinsics"),
+        differences(&table(&page, "## Camera", 2), &definitions["ViewportEntry"], "viewport"),
         differences(&table(&page, "## Animations", 0), &definitions["TrackEntry"], "track"),
         differences(&table(&page, "## Environment", 0), &definitions["EnvironmentEntry"], "environment"),
         differences(&table(&page, "## Objects", 0), &definitions["ObjectEntry"], "object"),
