@@ -87,10 +87,16 @@ pub(crate) fn add_drawers(app: &mut App, schedule: InternedScheduleLabel) {
     cpu::add(app, schedule);
     #[cfg(feature = "wgpu")]
     gpu::plugin::add(app, schedule);
-    add_further_camera(app);
-    cpu::add_stages(app, FurtherCamera.intern());
+}
+
+/// The schedule of the cameras after the first. Most Apps never need it.
+pub(crate) fn further_camera() -> Option<Schedule> {
+    let mut app = App::empty();
+    add_further_camera(&mut app);
+    cpu::add_stages(&mut app, FurtherCamera.intern());
     #[cfg(feature = "wgpu")]
-    gpu::plugin::add_stages(app, FurtherCamera.intern());
+    gpu::plugin::add_stages(&mut app, FurtherCamera.intern());
+    app.world_mut().resource_mut::<Schedules>().remove(FurtherCamera)
 }
 
 /// Opens an adapter for headless pictures unless one is open. A failure is reported and retried in every frame, so that
