@@ -182,7 +182,18 @@ pub(crate) fn present(
 fn copy_together(gpu: &Gpu, (views, first): (&Views, &Target), window: &wgpu::Texture) {
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("window") });
     // Where no camera draws, it is black.
-    encoder.clear_texture(window, &wgpu::ImageSubresourceRange::default());
+    let black = wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store };
+    let view = window.create_view(&wgpu::TextureViewDescriptor::default());
+    drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("window"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: black,
+        })],
+        ..Default::default()
+    }));
     for (place, target) in views.targets(first) {
         let Some(picture) = target.picture() else { continue };
         let origin = wgpu::Origin3d { x: place.corner.x, y: place.corner.y, z: 0 };
