@@ -11,7 +11,7 @@ use bevy_ecs::schedule::ScheduleLabel;
 use bevy_input::{InputPlugin, InputSystems};
 use bevy_math::{UVec2, Vec3};
 use bevy_transform::components::Transform;
-use halfway_lighting::Camera;
+use halfway_lighting::{Camera, Viewport};
 use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 
 /// Runs the App in a window: one `App::update` a frame, at the display's rate.
@@ -83,12 +83,19 @@ impl Plugin for WindowPlugin {
     }
 }
 
-type NewCameras<'w, 's> =
-    Query<'w, 's, (Entity, &'static Transform), (Added<Camera>, Without<OrbitCamera>, Without<ChildOf>)>;
+type NewCameras<'w, 's> = Query<
+    'w,
+    's,
+    (Entity, &'static Transform, Option<&'static Viewport>),
+    (Added<Camera>, Without<OrbitCamera>, Without<ChildOf>),
+>;
 
-/// Gives a camera without an orbit one that does not change its picture.
+/// Gives a camera without an orbit one that does not change its picture; of cameras that share the window, the first.
 fn give_orbits(cameras: NewCameras, mut commands: Commands) {
-    for (entity, transform) in &cameras {
+    let sharing = cameras.iter().filter_map(|(entity, _, viewport)| Some((viewport?.order, entity)));
+    let first = sharing.min().map(|(_, entity)| entity);
+    let turned = cameras.iter().filter(|(entity, _, viewport)| viewport.is_none() || first == Some(*entity));
+    for (entity, transform, _) in turned {
         commands.entity(entity).insert(OrbitCamera::resume(transform, distance_to_turn_at(transform)));
     }
 }
@@ -129,6 +136,19 @@ mod tests {
             // A few roundings.
             assert!((distance - expected).abs() < 1e-5, "{name}: {distance}");
         }
+    }
+
+    #[test]
+    fn the_first_of_the_cameras_that_share_a_window_gets_an_orbit() {
+        let mut app = App::new();
+        app.add_plugins(WindowPlugin::default());
+        app.finish();
+        let camera =
+            |order| (Camera::default(), Transform::from_xyz(0.0, 0.0, 5.0), Viewport::default().with_order(order));
+        let cameras = [2, 1, 3].map(|order| app.world_mut().spawn(camera(order)).id());
+        app.update();
+        let orbits = cameras.map(|camera| app.world().get::<OrbitCamera>(camera).is_some());
+        assert_eq!(orbits, [false, true, false]);
     }
 
     #[test]
