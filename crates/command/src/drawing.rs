@@ -128,12 +128,13 @@ mod tests {
             ("flat", Shading::Flat),
             ("gouraud", Shading::Gouraud),
             ("phong", Shading::Phong),
+            ("unlit", Shading::Unlit),
             ("auto", Shading::Phong),
         ] {
             assert_eq!(read(word).map(|line| line.look.shading()).ok(), Some(Some(shading)), "{word}");
         }
         let error = read("smooth").err().map(|error| error.to_string()).unwrap_or_default();
-        assert!(error.contains("[possible values: flat, gouraud, phong]"), "{error}");
+        assert!(error.contains("[possible values: flat, gouraud, phong, unlit]"), "{error}");
     }
 
     #[test]

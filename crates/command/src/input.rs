@@ -70,7 +70,8 @@ impl SceneInput {
         if let Some(shading) = args.shading() {
             scene.shading = shading;
             scene.all_cameras_mut().for_each(|camera| camera.shading = None);
-            scene.objects.iter_mut().for_each(|object| object.shading = None);
+            // Over that of a model's own materials, too.
+            scene.objects.iter_mut().for_each(|object| object.shading = Some(shading));
         }
         if let Some(reflectance) = args.reflectance {
             scene.reflectance = reflectance;

@@ -19,6 +19,8 @@
 //! | sky, ground | colours of a light from all around, which adds kd·lerp(ground, sky, (1 + n·d)/2), d toward the sky | ≥ 0 | [`HemisphereLight`] |
 //! | v | local viewer: toward the eye; infinite viewer: (0, 0, 1) in eye space; orthographic camera: v = +Z in eye space at every point | | [`Viewer`], [`Projection`] |
 //!
+//! Under [`Shading::Unlit`] I = kd, whatever shines: neither lights nor ambient light, environments or emission count.
+//!
 //! All vectors have unit length, all colours are linear RGB (a [`LinearRgba`] whose alpha is
 //! ignored), angles are in radians. Sources: Phong 1975 and Blinn 1977 for S, OpenGL 2.1 §2.14.1 for the sum, the
 //! falloff and the cone, `KHR_lights_punctual` for range and inner cone. Shading is local: no shadows, no

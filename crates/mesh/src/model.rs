@@ -149,6 +149,8 @@ pub struct MetallicRoughness {
     pub emissive: [f32; 3],
     /// `doubleSided`: both faces are shown.
     pub double_sided: bool,
+    /// `KHR_materials_unlit`: the base color is shown as it is.
+    pub unlit: bool,
     /// `alphaMode` and `alphaCutoff`.
     pub alpha: AlphaMode,
     /// The images.

@@ -117,7 +117,8 @@ impl<'a> Shapes<'a> {
                 for part in shape.parts.iter_mut().filter(|part| part.own.is_none()) {
                     let is_open = object.faces.is_none() && part.mesh.is_open();
                     let faces = if is_open { Faces::Both } else { Faces::default() };
-                    part.own = Some(ModelMaterial { material: *material, faces, alpha: AlphaMode::default() });
+                    let alpha = AlphaMode::default();
+                    part.own = Some(ModelMaterial { material: *material, faces, shading: None, alpha });
                 }
                 return Ok(shape);
             }

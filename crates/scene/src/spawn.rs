@@ -407,7 +407,7 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     let faces = object.faces.or(own.map(|own| own.faces)).unwrap_or_default();
     entity.insert((Mesh3d(mesh), material, faces));
     insert_some(entity, object.back_material.as_ref().and_then(MaterialEntry::material).map(BackMaterial));
-    insert_some(entity, object.shading);
+    insert_some(entity, object.shading.or(own.and_then(|own| own.shading)));
     insert_some(entity, object.tolerance);
     insert_some(entity, object.reflectance);
     // All parts are cut from one solid.

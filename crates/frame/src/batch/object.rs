@@ -18,6 +18,8 @@ use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
 pub(crate) struct Reflecting<'a> {
     pub(crate) front: &'a Material,
     pub(crate) back: &'a Material,
+    /// Else it shows its base color.
+    pub(crate) lit: bool,
     pub(crate) reflectance: Reflectance,
     pub(crate) faces: Faces,
     /// The mesh has colors that count.
@@ -33,7 +35,7 @@ pub(crate) struct Reflecting<'a> {
 }
 
 /// The same as a key: the materials' bits, and the rest.
-pub(crate) type ReflectingBits = ([MaterialBits; 2], Reflectance, Faces, bool);
+pub(crate) type ReflectingBits = ([MaterialBits; 2], Reflectance, Faces, [bool; 2]);
 type MaterialBits = [u32; size_of::<Material>() / 4];
 
 /// Everything that follows from the appearance, whatever the object's place and shading.
@@ -73,7 +75,7 @@ impl Reflecting<'_> {
             [self.front, self.back].map(|material| bytemuck::cast(*material)),
             self.reflectance,
             self.faces,
-            self.is_painted(),
+            [self.is_painted(), self.lit],
         )
     }
 
@@ -108,7 +110,8 @@ impl Reflecting<'_> {
     }
 
     fn coefficients(&self) -> [Coefficients<f32>; 2] {
-        self.sides().map(Coefficients::from)
+        let of_side = |side| if self.lit { Coefficients::from(side) } else { Coefficients::from(side).unlit() };
+        self.sides().map(of_side)
     }
 
     fn exponents(&self) -> [f32; 2] {
@@ -125,10 +128,10 @@ impl Reflecting<'_> {
     /// Seen only from behind, the back is what the shader lights as front; see
     /// [`InstanceRecord::new`](halfway_lighting::record::InstanceRecord::new).
     fn record(&self, ambient: Vec3) -> SurfaceRecord {
-        let [front, back] = self.sides().map(|side| {
-            let (coefficients, painted) = (Coefficients::from(side), self.is_painted());
-            MaterialRecord::new(&coefficients, self.reflectance, ambient, painted)
-        });
+        let ambient = if self.lit { ambient } else { Vec3::ONE };
+        let [front, back] = self
+            .coefficients()
+            .map(|side| MaterialRecord::new(&side, self.reflectance, ambient, self.is_painted()));
         SurfaceRecord { front, back, ..SurfaceRecord::default() }
     }
 

@@ -60,16 +60,16 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"shading": "smooth"}"#,
         (1, 13),
-        "`shading`: unknown value `smooth`, expected \"flat\", \"gouraud\" or \"phong\"",
+        "`shading`: unknown value `smooth`, expected \"flat\", \"gouraud\", \"phong\" or \"unlit\"",
     ),
     (r#"{"output": 3}"#, (1, 12), "`output`: is a value of the wrong type: integer `3`, expected \"srgb\" or \"raw\""),
     (r#"{"output": {"srgb": null}}"#, (1, 12), "`output`: is a value of the wrong type: object, expected \"srgb\""),
     (
         r#"{"shading": {"flat": null}}"#,
         (1, 14),
-        "`shading.flat`: unknown key `flat`, expected \"flat\", \"gouraud\" or ",
+        "`shading.flat`: unknown key `flat`, expected \"flat\", \"gouraud\", \"phong\" or ",
     ),
-    (r#"{"shading": "Auto"}"#, (1, 13), "`shading`: unknown value `Auto`, expected \"flat\", \"gouraud\" or "),
+    (r#"{"shading": "Auto"}"#, (1, 13), "`shading`: unknown value `Auto`, expected \"flat\", \"gouraud\", \"phong\" or "),
     (
         r#"{"tolerance": 1}"#,
         (1, 15),
@@ -85,7 +85,7 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"shading": 1}"#,
         (1, 13),
-        "`shading`: is a value of the wrong type: integer `1`, expected \"flat\", \"gouraud\" or ",
+        "`shading`: is a value of the wrong type: integer `1`, expected \"flat\", \"gouraud\", \"phong\" or ",
     ),
     (
         r#"{"shading": {"auto": {}, "phong": 1}}"#,
