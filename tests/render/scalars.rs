@@ -8,7 +8,8 @@ use halfway::scene::{ColorMap, Scalars};
 
 /// A square from −2 to 2 that fills 40 pixels of a picture of 50, shown unlit.
 fn shown(stage: &mut Stage, scalars: &Scalars) -> image::Rgba32FImage {
-    let square = Thing::square(Vec3::new(0.0, 0.0, -5.0), Vec3::Z, 4.0).with_material(Material::matte(LinearRgba::WHITE));
+    let square =
+        Thing::square(Vec3::new(0.0, 0.0, -5.0), Vec3::Z, 4.0).with_material(Material::matte(LinearRgba::WHITE));
     let (mesh, colors) = scalars.on(&square.mesh).unwrap_or_else(|error| panic!("{error}"));
     let scene = Scene { camera: Camera::orthographic(5.0), ..Scene::in_eye_space() };
     let thing = stage.set(&scene.with(Thing { mesh, ..square }))[0];

@@ -8,8 +8,7 @@ use halfway::lighting::{LightRig, View};
 use halfway::mesh::Normals;
 use halfway::prelude::*;
 use halfway::scene::{
-    CameraEntry, LoadedModel, MeshEntry, ObjectEntry, SceneError, SceneFile, Spawned, rig_lights, spawn,
-    spawn_seen_from,
+    CameraEntry, LoadedModel, MeshEntry, ObjectEntry, SceneError, SceneFile, Spawned, spawn, spawn_seen_from,
 };
 
 use crate::drawing::{DrawingArgs, SizeArgs};
@@ -99,6 +98,7 @@ impl SceneInput {
         }
         args.look.apply(scene);
         args.framing.apply(scene);
+        args.scalars.apply(scene);
         Ok(input)
     }
 
@@ -111,13 +111,14 @@ impl SceneInput {
     }
 
     /// Removes what is drawn over and behind the finished picture, by the same code for all renderers: lines along edges,
-    /// and backgrounds of more than one opaque colour. Returns whether there was any.
+    /// legends, and backgrounds of more than one opaque colour. Returns whether there was any.
     pub(crate) fn remove_what_is_laid_over(&mut self) -> bool {
         let scene = &mut self.scene;
         let edges = scene.objects.iter_mut().filter_map(|object| object.edges.take()).count();
         let is_plain = scene.background_below.is_none() && scene.background_opacity >= 1.0;
         (scene.background_below, scene.background_opacity) = (None, 1.0);
-        scene.edges.take().is_some() || edges > 0 || !is_plain
+        let legends = scene.all_cameras_mut().filter_map(|camera| camera.legend.take()).count();
+        scene.edges.take().is_some() || edges + legends > 0 || !is_plain
     }
 
     /// The file's name without its folder.
@@ -161,7 +162,7 @@ fn scene_of(models: Vec<LoadedModel>) -> SceneFile {
     SceneFile {
         camera: Some(CameraEntry { view: Some(View::default()), fov_y_deg: 30.0, ..CameraEntry::default() }),
         background: BACKGROUND,
-        lights: (!has_lights).then(|| rig_lights(LightRig::Studio)),
+        lights: (!has_lights).then(|| LightRig::Studio.into()),
         objects: models.into_iter().map(object).collect(),
         ..SceneFile::default()
     }

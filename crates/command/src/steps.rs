@@ -10,10 +10,12 @@ pub(crate) struct Meshes {
     meshes: Vec<(Mesh, Vec<usize>)>,
     /// How many parts had tangents.
     tangents: usize,
+    /// Prints a line.
+    say: fn(String),
 }
 
 impl Meshes {
-    pub(crate) fn from_model(model: &Model) -> Self {
+    pub(crate) fn from_model(model: &Model, say: fn(String)) -> Self {
         let mut meshes: Vec<(Mesh, Vec<usize>)> = Vec::new();
         let mut numbers = HashMap::new();
         for (i, part) in model.parts.iter().enumerate() {
@@ -24,7 +26,7 @@ impl Meshes {
                 None => meshes.push((part.mesh.clone(), vec![i])),
             }
         }
-        Self { tangents: with_tangents(model), meshes }
+        Self { tangents: with_tangents(model), meshes, say }
     }
 
     /// Gives the parts their meshes; parts without a mesh are dropped.
@@ -37,11 +39,11 @@ impl Meshes {
         changed.sort_by_key(|&(i, ..)| i);
         model.parts = changed.into_iter().map(|(_, mesh, part)| Part { mesh, ..part }).collect();
         for part in parts.into_iter().flatten() {
-            println!("lost       part \"{}\", of which no triangle is left", part.name);
+            (self.say)(format!("lost       part \"{}\", of which no triangle is left", part.name));
         }
         let tangents = self.tangents.saturating_sub(with_tangents(model));
         if tangents > 0 {
-            println!("lost       the tangents of {tangents} parts, which belonged to other normals");
+            (self.say)(format!("lost       the tangents of {tangents} parts, which belonged to other normals"));
         }
     }
 
@@ -69,7 +71,9 @@ impl Meshes {
             Some(welded)
         });
         let WeldReport { merged_vertices, collapsed_triangles } = all;
-        println!("weld       {merged_vertices} of {before} vertices merged, {collapsed_triangles} triangles collapsed");
+        (self.say)(format!(
+            "weld       {merged_vertices} of {before} vertices merged, {collapsed_triangles} triangles collapsed"
+        ));
     }
 
     pub(crate) fn repair(&mut self) {
@@ -84,7 +88,7 @@ impl Meshes {
             all.against_normals += times * report.against_normals;
             Some(repaired)
         });
-        println!("repair     {all}");
+        (self.say)(format!("repair     {all}"));
     }
 
     pub(crate) fn subdivide(&mut self, scheme: Subdivision, times: u32) -> Result<(), MeshError> {
@@ -92,7 +96,7 @@ impl Meshes {
         for (mesh, _) in &mut self.meshes {
             *mesh = mesh.subdivided(scheme, times)?;
         }
-        println!("subdivide  {before} to {} triangles", self.triangles());
+        (self.say)(format!("subdivide  {before} to {} triangles", self.triangles()));
         Ok(())
     }
 
@@ -107,7 +111,7 @@ impl Meshes {
             Some(level.mesh)
         });
         let after = self.triangles();
-        println!("simplify   {before} to {after} triangles; no point is further off than {error:.3e}");
+        (self.say)(format!("simplify   {before} to {after} triangles; no point is further off than {error:.3e}"));
     }
 
     pub(crate) fn make_normals(&mut self, normals: Normals) {
@@ -120,17 +124,17 @@ impl Meshes {
             all.without_face += times * report.without_face;
             Some(mesh)
         });
-        print!("normals    {before} to {} vertices", self.vertices());
+        let mut line = format!("normals    {before} to {} vertices", self.vertices());
         for (count, what) in [
             (all.degenerate_triangles, "degenerate triangles without one"),
             (all.cancelled, "vertices whose faces cancel out"),
             (all.without_face, "vertices of no face"),
         ] {
             if count > 0 {
-                print!(", {count} {what}");
+                line.push_str(&format!(", {count} {what}"));
             }
         }
-        println!();
+        (self.say)(line);
     }
 }
 

@@ -6,9 +6,9 @@ use bevy_app::App;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::{Resource, World};
 use bevy_math::UVec2;
-use halfway_lighting::{Camera, Edges, Intensity, Samples};
+use halfway_lighting::{Camera, Edges, Intensity, Legend, Samples};
 use halfway_reference::{Mode, Oracle, OracleError};
-use halfway_render::{Picture, Pixels, Surfaces, draw_background, draw_edges};
+use halfway_render::{Picture, Pixels, Surfaces, draw_background, draw_edges, draw_legend};
 use image::DynamicImage;
 
 use crate::recording::{FrameToDraw, RecordError, camera};
@@ -34,7 +34,7 @@ use crate::recording::{FrameToDraw, RecordError, camera};
 pub struct ReferenceDrawing {
     /// The geometry that is drawn for each object. Default [`Mode::Mesh`].
     pub mode: Mode,
-    /// The square root of the samples a pixel. `None`, the default, is 2 if the camera has four samples, else 1.
+    /// The square root of the samples a pixel. `None`, the default, is that of the camera's: 1, 2, 4 or 8.
     pub supersampling: Option<u32>,
 }
 
@@ -59,6 +59,8 @@ impl ReferenceDrawing {
         let supersampling = self.supersampling.unwrap_or(match camera.samples {
             Samples::One => 1,
             Samples::Four => 2,
+            Samples::Sixteen => 4,
+            Samples::SixtyFour => 8,
         });
         let oracle = Oracle::new(app.world_mut(), frame.size)?
             .with_mode(self.mode)
@@ -87,6 +89,9 @@ impl ReferenceDrawing {
                 Some((nearest.object, nearest.triangle?))
             })?;
             draw_edges(world, &mut picture, &surfaces)?;
+        }
+        if let Some(legend) = world.get_resource::<Legend>() {
+            draw_legend(&mut picture, legend, camera.encoding);
         }
         Ok(picture)
     }

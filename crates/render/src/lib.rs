@@ -12,6 +12,7 @@ mod cpu;
 #[cfg(feature = "wgpu")]
 mod gpu;
 mod headless;
+mod jitter;
 mod legend;
 mod lines;
 mod logged;
@@ -50,8 +51,9 @@ pub use halfway_frame::times::{FrameTimes, SetTimes};
 pub use halfway_frame::view::camera::View;
 pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 pub use halfway_frame::why_empty::{EmptyReason, why_empty};
+pub use halfway_lighting::Legend;
 pub use headless::Headless;
-pub use legend::Legend;
+pub use legend::draw_legend;
 pub use lines::draw_edges;
 pub use pending::PendingPicture;
 pub use picture::{Picture, Pixels};

@@ -129,9 +129,8 @@ impl Reflecting<'_> {
     /// [`InstanceRecord::new`](halfway_lighting::record::InstanceRecord::new).
     fn record(&self, ambient: Vec3) -> SurfaceRecord {
         let ambient = if self.lit { ambient } else { Vec3::ONE };
-        let [front, back] = self
-            .coefficients()
-            .map(|side| MaterialRecord::new(&side, self.reflectance, ambient, self.is_painted()));
+        let [front, back] =
+            self.coefficients().map(|side| MaterialRecord::new(&side, self.reflectance, ambient, self.is_painted()));
         SurfaceRecord { front, back, ..SurfaceRecord::default() }
     }
 
