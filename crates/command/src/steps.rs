@@ -7,7 +7,7 @@ use halfway::mesh::{Mesh, MeshError, Model, NormalReport, Normals, Part, RepairR
 /// The meshes of a model, each once however many parts show it; counted once for each part.
 pub(crate) struct Meshes {
     /// Each mesh with the parts that show it.
-    meshes: Vec<(Mesh, Vec<usize>)>,
+    all: Vec<(Mesh, Vec<usize>)>,
     /// How many parts had tangents.
     tangents: usize,
     /// Prints a line.
@@ -26,14 +26,14 @@ impl Meshes {
                 None => meshes.push((part.mesh.clone(), vec![i])),
             }
         }
-        Self { tangents: with_tangents(model), meshes, say }
+        Self { tangents: with_tangents(model), all: meshes, say }
     }
 
     /// Gives the parts their meshes; parts without a mesh are dropped.
     pub(crate) fn put_into(self, model: &mut Model) {
         let mut parts: Vec<_> = std::mem::take(&mut model.parts).into_iter().map(Some).collect();
         let mut changed = Vec::new();
-        for (mesh, shown) in self.meshes {
+        for (mesh, shown) in self.all {
             changed.extend(shown.into_iter().filter_map(|i| Some((i, mesh.clone(), parts[i].take()?))));
         }
         changed.sort_by_key(|&(i, ..)| i);
@@ -48,17 +48,17 @@ impl Meshes {
     }
 
     fn triangles(&self) -> usize {
-        self.meshes.iter().map(|(mesh, parts)| mesh.triangle_count() * parts.len()).sum()
+        self.all.iter().map(|(mesh, parts)| mesh.triangle_count() * parts.len()).sum()
     }
 
     fn vertices(&self) -> usize {
-        self.meshes.iter().map(|(mesh, parts)| mesh.positions().len() * parts.len()).sum()
+        self.all.iter().map(|(mesh, parts)| mesh.positions().len() * parts.len()).sum()
     }
 
     /// Changes every mesh; `step` also gets the number of parts that show it. Meshes without triangles are dropped.
     fn change(&mut self, mut step: impl FnMut(&Mesh, usize) -> Option<Mesh>) {
-        let meshes = std::mem::take(&mut self.meshes).into_iter();
-        self.meshes = meshes.filter_map(|(mesh, parts)| Some((step(&mesh, parts.len())?, parts))).collect();
+        let meshes = std::mem::take(&mut self.all).into_iter();
+        self.all = meshes.filter_map(|(mesh, parts)| Some((step(&mesh, parts.len())?, parts))).collect();
     }
 
     pub(crate) fn weld(&mut self, weld: Weld) {
@@ -93,7 +93,7 @@ impl Meshes {
 
     pub(crate) fn subdivide(&mut self, scheme: Subdivision, times: u32) -> Result<(), MeshError> {
         let before = self.triangles();
-        for (mesh, _) in &mut self.meshes {
+        for (mesh, _) in &mut self.all {
             *mesh = mesh.subdivided(scheme, times)?;
         }
         (self.say)(format!("subdivide  {before} to {} triangles", self.triangles()));
@@ -124,17 +124,18 @@ impl Meshes {
             all.without_face += times * report.without_face;
             Some(mesh)
         });
-        let mut line = format!("normals    {before} to {} vertices", self.vertices());
+        let vertices = self.vertices();
+        let mut line = vec![format!("normals    {before} to {vertices} vertices")];
         for (count, what) in [
             (all.degenerate_triangles, "degenerate triangles without one"),
             (all.cancelled, "vertices whose faces cancel out"),
             (all.without_face, "vertices of no face"),
         ] {
             if count > 0 {
-                line.push_str(&format!(", {count} {what}"));
+                line.push(format!("{count} {what}"));
             }
         }
-        (self.say)(line);
+        (self.say)(line.join(", "));
     }
 }
 

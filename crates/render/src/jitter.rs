@@ -124,7 +124,9 @@ mod tests {
         let one = |pixel| Picture::Byte(RgbaImage::from_pixel(1, 1, image::Rgba(pixel)));
         let mean = |pictures: &[[u8; 4]], encoding| {
             let mut sum = Sum::new(&one([0; 4]));
-            pictures.iter().for_each(|pixel| sum.add(&one(*pixel), encoding));
+            for pixel in pictures {
+                sum.add(&one(*pixel), encoding);
+            }
             sum.mean(encoding)
         };
         let pictures = [[255, 0, 100, 255], [0, 0, 100, 255]];

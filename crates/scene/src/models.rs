@@ -93,13 +93,12 @@ impl<'a> Shapes<'a> {
         let key = key
             .filter(|_| object.scalars.is_none())
             .map(|key| format!("{key} {:?} {:?}", object.normals, object.displacement));
-        let shape = match key.as_ref().and_then(|key| self.loaded.get(key)) {
-            Some(shape) => Rc::clone(shape),
-            None => {
-                let mut shape = self.load(object, index)?;
-                shape.parts.iter_mut().for_each(ShapePart::whiten_under_scalars);
-                Rc::new(shape)
-            }
+        let shape = if let Some(shape) = key.as_ref().and_then(|key| self.loaded.get(key)) {
+            Rc::clone(shape)
+        } else {
+            let mut shape = self.load(object, index)?;
+            shape.parts.iter_mut().for_each(ShapePart::whiten_under_scalars);
+            Rc::new(shape)
         };
         if let Some(key) = key {
             self.loaded.insert(key, Rc::clone(&shape));

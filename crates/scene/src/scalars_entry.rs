@@ -54,7 +54,7 @@ impl Object for ScalarsEntry {
             return Err(KeyProblem::new("", "expected one of the keys property, at_vertices and on_faces"));
         }
         match self.range {
-            Some([low, high]) if !(low < high) => {
+            Some([low, high]) if low >= high => {
                 Err(KeyProblem::new("range", format!("is [{low}, {high}]; expected the lower number first")))
             }
             _ => Ok(()),

@@ -10,7 +10,9 @@ use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, Eye, specular_exponent};
 use halfway_lighting::record::Cull;
 use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
-use halfway_lighting::{Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Terms};
+use halfway_lighting::{
+    Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Shading, Terms,
+};
 use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
 
 /// The components that say how an object reflects light.
@@ -18,8 +20,7 @@ use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
 pub(crate) struct Reflecting<'a> {
     pub(crate) front: &'a Material,
     pub(crate) back: &'a Material,
-    /// Else it shows its base color.
-    pub(crate) lit: bool,
+    pub(crate) shading: Shading,
     pub(crate) reflectance: Reflectance,
     pub(crate) faces: Faces,
     /// The mesh has colors that count.
@@ -75,8 +76,13 @@ impl Reflecting<'_> {
             [self.front, self.back].map(|material| bytemuck::cast(*material)),
             self.reflectance,
             self.faces,
-            [self.is_painted(), self.lit],
+            [self.is_painted(), self.is_lit()],
         )
+    }
+
+    /// Whether light has part in it; else it shows its base color.
+    fn is_lit(&self) -> bool {
+        self.shading != Shading::Unlit
     }
 
     /// Whether what multiplies ambient and diffuse light is not in the material alone.
@@ -110,7 +116,7 @@ impl Reflecting<'_> {
     }
 
     fn coefficients(&self) -> [Coefficients<f32>; 2] {
-        let of_side = |side| if self.lit { Coefficients::from(side) } else { Coefficients::from(side).unlit() };
+        let of_side = |side| if self.is_lit() { Coefficients::from(side) } else { Coefficients::from(side).unlit() };
         self.sides().map(of_side)
     }
 
@@ -128,7 +134,7 @@ impl Reflecting<'_> {
     /// Seen only from behind, the back is what the shader lights as front; see
     /// [`InstanceRecord::new`](halfway_lighting::record::InstanceRecord::new).
     fn record(&self, ambient: Vec3) -> SurfaceRecord {
-        let ambient = if self.lit { ambient } else { Vec3::ONE };
+        let ambient = if self.is_lit() { ambient } else { Vec3::ONE };
         let [front, back] =
             self.coefficients().map(|side| MaterialRecord::new(&side, self.reflectance, ambient, self.is_painted()));
         SurfaceRecord { front, back, ..SurfaceRecord::default() }

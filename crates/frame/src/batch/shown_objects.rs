@@ -77,7 +77,7 @@ impl ShownObjects<'_, '_> {
         let reflecting = Reflecting {
             front: material,
             back: back.map_or(material, |back| &back.0),
-            lit: shading != Shading::Unlit,
+            shading,
             reflectance: reflectance.copied().unwrap_or(self.view.reflectance),
             faces: faces.copied().unwrap_or_default(),
             colored: paint.colored,

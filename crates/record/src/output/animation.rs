@@ -69,7 +69,7 @@ pub struct AnimationWriter {
 
 /// The first frame decides about the channels, which stand at the beginning of the file.
 enum Writer {
-    Waiting(Option<png::Encoder<'static, BufWriter<File>>>),
+    Waiting(Option<Box<png::Encoder<'static, BufWriter<File>>>>),
     Begun { writer: png::Writer<BufWriter<File>>, has_alpha: bool },
 }
 
@@ -96,7 +96,7 @@ impl AnimationWriter {
             .set_animated(frames, 0)
             .and_then(|()| encoder.set_frame_delay(delay.numerator, delay.denominator))
             .map_err(|error| OutputError::png(file, error))?;
-        Ok(Self { writer: Writer::Waiting(Some(encoder)), partial, size, encoding, written: 0, frames })
+        Ok(Self { writer: Writer::Waiting(Some(Box::new(encoder))), partial, size, encoding, written: 0, frames })
     }
 
     /// Checks that a file of this name can hold an animation.

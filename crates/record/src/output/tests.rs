@@ -419,7 +419,9 @@ fn an_animation_keeps_its_opacity() {
     let mut animation =
         AnimationWriter::create(&file, (4, 3), 2, FrameDelay::per_second(10), Encoding::Srgb).expect("a file");
     let frames = [0, 255].map(|alpha| RgbaImage::from_pixel(4, 3, Rgba([10, 20, 30, alpha])));
-    frames.iter().for_each(|frame| animation.frame(&Picture::Byte(frame.clone())).expect("a frame"));
+    for frame in &frames {
+        animation.frame(&Picture::Byte(frame.clone())).expect("a frame");
+    }
     animation.finish().expect("a file");
     assert_eq!(image::open(&file).expect("a picture").as_rgba8(), Some(&frames[0]));
 }
