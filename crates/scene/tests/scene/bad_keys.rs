@@ -103,7 +103,7 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     ),
     (
         r#"{"shading": {"terms": {"diffuse": "triangle", "specular": "vertex"}}}"#,
-        (1, 22),
+        (1, 23),
         "`shading.terms`: the term is evaluated once a triangle and the other at Vertex",
     ),
     (
