@@ -52,7 +52,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "FILE")]
     contact_sheet: Option<PathBuf>,
     /// Also write what the picture shows beside colour, each quantity to a .exr or .png; in one .exr they are layers
-    #[arg(long, value_name = "QUANTITY=FILE,…", value_delimiter = ',', value_parser = parse_quantity, conflicts_with = "reference")]
+    #[arg(long, value_name = "QUANTITY=FILE,…", value_delimiter = ',', value_parser = parse_quantity)]
     also: Vec<(Quantity, PathBuf)>,
     /// Draw with the reference renderer: every pixel in 64-bit arithmetic on the CPU, without a graphics adapter
     #[arg(long, conflicts_with = "adapter")]

@@ -8,9 +8,10 @@ use bevy_ecs::prelude::{Resource, World};
 use bevy_math::UVec2;
 use halfway_lighting::{Camera, Edges, Intensity, Legend, Samples};
 use halfway_reference::{Mode, Oracle, OracleError};
-use halfway_render::{Picture, Pixels, Surfaces, draw_background, draw_edges, draw_legend};
+use halfway_render::{Picture, Pixels, draw_background, draw_edges, draw_legend};
 use image::DynamicImage;
 
+use crate::oracle_surfaces::{OracleFrame, surfaces};
 use crate::recording::{FrameToDraw, RecordError, camera};
 
 /// Draws frames with the reference renderer: in f64 on the CPU, without a graphics adapter.
@@ -83,16 +84,13 @@ impl ReferenceDrawing {
         }
         if world.query::<&Edges>().iter(world).next().is_some() {
             // Edges are those of the mesh, whatever is drawn for it.
-            let oracle = Oracle::new(world, frame.size)?;
-            let surfaces = Surfaces::found_by(world, frame.size, |x, y| {
-                let nearest = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest?;
-                Some((nearest.object, nearest.triangle?))
-            })?;
+            let surfaces = surfaces(world, frame.size)?;
             draw_edges(world, &mut picture, &surfaces)?;
         }
         if let Some(legend) = world.get_resource::<Legend>() {
             draw_legend(&mut picture, legend, camera.encoding);
         }
+        world.insert_resource(OracleFrame(frame.size));
         Ok(picture)
     }
 }

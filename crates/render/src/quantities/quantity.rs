@@ -191,7 +191,7 @@ fn image(world: &mut World, quantity: Quantity, surfaces: &mut Option<Surfaces>)
                 Some(surfaces) => surfaces,
                 none => none.insert(Surfaces::take(world)?),
             };
-            Ok(of_surfaces(quantity, surfaces))
+            Ok(QuantityImage::of_surfaces(quantity, surfaces))
         }
     }
 }
@@ -202,20 +202,23 @@ fn of_picture(quantity: Quantity, drawn: &Rgba32FImage, push: impl Fn([f32; 4], 
     QuantityImage { quantity, size: drawn.dimensions().into(), values: QuantityValues::Floats(values) }
 }
 
-fn of_surfaces(quantity: Quantity, surfaces: &Surfaces) -> QuantityImage {
-    let values = if matches!(quantity, Quantity::Id | Quantity::Part | Quantity::Triangle) {
-        let number = |point: Option<SurfacePoint>| point.and_then(|point| quantity.number(&point)).unwrap_or(0);
-        QuantityValues::Numbers(surfaces.iter().map(number).collect())
-    } else {
-        let channels = quantity.channels().len();
-        let mut values = Vec::with_capacity(channels * surfaces.size().element_product() as usize);
-        for point in surfaces.iter() {
-            match point {
-                Some(point) => quantity.at(surfaces, &point, &mut values),
-                None => values.extend(std::iter::repeat_n(0.0, channels)),
+impl QuantityImage {
+    /// A quantity of surfaces, whichever drawer found them. Albedo and coverage, which are averages over samples, are 0.
+    pub fn of_surfaces(quantity: Quantity, surfaces: &Surfaces) -> Self {
+        let values = if matches!(quantity, Quantity::Id | Quantity::Part | Quantity::Triangle) {
+            let number = |point: Option<SurfacePoint>| point.and_then(|point| quantity.number(&point)).unwrap_or(0);
+            QuantityValues::Numbers(surfaces.iter().map(number).collect())
+        } else {
+            let channels = quantity.channels().len();
+            let mut values = Vec::with_capacity(channels * surfaces.size().element_product() as usize);
+            for point in surfaces.iter() {
+                match point {
+                    Some(point) => quantity.at(surfaces, &point, &mut values),
+                    None => values.extend(std::iter::repeat_n(0.0, channels)),
+                }
             }
-        }
-        QuantityValues::Floats(values)
-    };
-    QuantityImage { quantity, size: surfaces.size(), values }
+            QuantityValues::Floats(values)
+        };
+        Self { quantity, size: surfaces.size(), values }
+    }
 }
