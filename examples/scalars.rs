@@ -1,5 +1,5 @@
 //! Numbers on meshes, as colours: the height of a wavy sheet with lines of equal height, lit; and the angle of a ball's
-//! faces against the light, one number a face, shown as it is.
+//! faces against the light, one number a face, unlit.
 //!
 //! ```text
 //! cargo run --release --example scalars
@@ -40,8 +40,8 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut images: R
     let (ball, colors) = Scalars { range: Some([-1.0, 1.0]), map: ColorMap::BlueRed, ..cosines }.on(&ball)?;
     commands.spawn((
         Mesh3d(meshes.add(ball)),
-        Material::emissive(LinearRgba::WHITE),
-        Scalars::maps(MapKind::Emission, images.add(colors)),
+        (Material::matte(LinearRgba::WHITE), Shading::Unlit),
+        Scalars::maps(MapKind::Color, images.add(colors)),
         Transform::from_xyz(0.0, 1.5, 0.0),
     ));
     commands.spawn((DirectionalLight::white(), Transform::from_translation(light).looking_at(Vec3::ZERO, Vec3::Y)));

@@ -56,6 +56,7 @@ mod render {
     mod terms;
     mod timing;
     mod transforms;
+    mod unlit;
     mod values;
     mod viewports;
     mod visibility;

@@ -1,6 +1,6 @@
 //! Numbers on meshes, shown by a colour map: against the map itself.
 
-use crate::render::scene::{Scene, Thing, glowing};
+use crate::render::scene::{Scene, Thing};
 use crate::render::stage::Stage;
 use bevy_color::Srgba;
 use halfway::prelude::*;
@@ -8,12 +8,13 @@ use halfway::scene::{ColorMap, Scalars};
 
 /// A square from −2 to 2 that fills 40 pixels of a picture of 50, shown unlit.
 fn shown(stage: &mut Stage, scalars: &Scalars) -> image::Rgba32FImage {
-    let square = Thing::square(Vec3::new(0.0, 0.0, -5.0), Vec3::Z, 4.0).with_material(glowing(1.0, 1.0, 1.0));
+    let square =
+        Thing::square(Vec3::new(0.0, 0.0, -5.0), Vec3::Z, 4.0).with_material(Material::matte(LinearRgba::WHITE));
     let (mesh, colors) = scalars.on(&square.mesh).unwrap_or_else(|error| panic!("{error}"));
     let scene = Scene { camera: Camera::orthographic(5.0), ..Scene::in_eye_space() };
     let thing = stage.set(&scene.with(Thing { mesh, ..square }))[0];
     let colors = stage.world().resource_mut::<Assets<Texture>>().add(colors);
-    stage.world().entity_mut(thing).insert(Scalars::maps(MapKind::Emission, colors));
+    stage.world().entity_mut(thing).insert((Scalars::maps(MapKind::Color, colors), Shading::Unlit));
     stage.float()
 }
 

@@ -1,24 +1,26 @@
 //! `halfway convert`.
 
-use std::path::PathBuf;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use halfway::mesh::{LoadError, LoadOptions, Model, Normals, Subdivision, Weld, load_with, write, write_quantised};
+use halfway::mesh::{LoadError, Model, Normals, Subdivision, Weld, load_with, write, write_quantised};
 
 use crate::failure::{Failure, STOPPED};
 use crate::look::parse_normals;
 use crate::progress::Progress;
+use crate::reading::{ReadingArgs, STANDARD};
 use crate::steps::Meshes;
 
 #[derive(Args, Debug)]
 pub(crate) struct ConvertArgs {
-    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl)
+    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl); - reads one from standard input, of --format
     input: PathBuf,
-    /// The file to write (.smf, .obj, .glb); .obj brings an .mtl of the same name where there are materials
+    /// The file to write (.smf, .obj, .glb); .obj brings an .mtl of the same name where there are materials; - writes to
+    /// standard output, of --format (of both, the second: --format stl,glb)
     output: PathBuf,
-    /// Read files that the model refers to outside its own folder, too
-    #[arg(long)]
-    outside: bool,
+    #[command(flatten)]
+    reading: ReadingArgs,
     /// Merge vertices that are equal in everything; with a DISTANCE those no further apart, whatever their attributes
     #[arg(long, value_name = "DISTANCE", num_args = 0..=1, require_equals = true, default_missing_value = EQUAL)]
     #[arg(value_parser = parse_weld)]
@@ -45,37 +47,83 @@ pub(crate) struct ConvertArgs {
 }
 
 pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
-    let progress = Progress::for_bytes();
-    let options = LoadOptions { outside: args.outside, ..LoadOptions::default() };
-    let mut model =
+    args.reading.without_picture()?;
+    let from_standard = args.input == Path::new(STANDARD);
+    let to_standard = args.output == Path::new(STANDARD);
+    // What is said does not mix with what is written.
+    let say: fn(String) = if to_standard { |line| eprintln!("{line}") } else { |line| println!("{line}") };
+    let formats = args.reading.model_formats();
+    let of_output = formats.last().filter(|_| to_standard);
+    let of_input = formats.first().filter(|_| from_standard || !to_standard || formats.len() > 1);
+    let mut model = if from_standard {
+        args.reading.load(&args.input)?
+    } else {
+        let progress = Progress::for_bytes();
+        let options = args.reading.options(of_input.copied());
         load_with(&args.input, options, &mut |at| progress.bytes(at.done, at.of)).map_err(|error| match error {
             LoadError::Stopped { .. } => Failure::new(STOPPED, error),
             _ => error.into(),
-        })?;
-    drop(progress);
+        })?
+    };
     for warning in &model.warnings {
-        println!("warning    {warning}");
+        say(format!("warning    {warning}"));
     }
-    change(args, &mut model)?;
-    let lost = if args.quantise {
-        let (moved, lost) = write_quantised(&args.output, &model)?;
-        println!("quantise   positions moved by at most {moved:.3e}");
+    change(args, &mut model, say)?;
+    let folder = if to_standard { Some(Folder::new()?) } else { None };
+    let output = match (&folder, of_output) {
+        (None, _) => args.output.clone(),
+        (Some(folder), Some(format)) => folder.0.join("model").with_extension(format.extension()),
+        (Some(_), None) => {
+            return Err("standard output: the format is not known; expected --format smf, obj or glb"
+                .to_owned()
+                .into());
+        }
+    };
+    let mut lost = if args.quantise {
+        let (moved, lost) = write_quantised(&output, &model)?;
+        say(format!("quantise   positions moved by at most {moved:.3e}"));
         lost
     } else {
-        write(&args.output, &model)?
+        write(&output, &model)?
     };
+    if to_standard {
+        let failed = |error: std::io::Error| format!("standard output: {error}");
+        let bytes = std::fs::read(&output).map_err(failed)?;
+        std::io::stdout().lock().write_all(&bytes).map_err(failed)?;
+        if output.with_extension("mtl").exists() {
+            lost.push("materials: their file has no place beside standard output".to_owned());
+        }
+    }
     for lost in &lost {
-        println!("lost       {lost}");
+        say(format!("lost       {lost}"));
     }
     let vertices: usize = model.parts.iter().map(|part| part.mesh.positions().len()).sum();
     let (parts, triangles) = (model.parts.len(), model.triangle_count());
-    println!("{}: {parts} parts, {triangles} triangles, {vertices} vertices", args.output.display());
+    let name = if to_standard { "standard output".to_owned() } else { args.output.display().to_string() };
+    say(format!("{name}: {parts} parts, {triangles} triangles, {vertices} vertices"));
     Ok(())
 }
 
+/// A folder of its own for what goes to standard output, since writers replace whole files. It is removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> Result<Self, Failure> {
+        let folder = std::env::temp_dir().join(format!("halfway-convert-{}", std::process::id()));
+        std::fs::create_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        Ok(Self(folder))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
 /// Takes the chosen steps, in the order of their options.
-fn change(args: &ConvertArgs, model: &mut Model) -> Result<(), Failure> {
-    let mut meshes = Meshes::from_model(model);
+fn change(args: &ConvertArgs, model: &mut Model, say: fn(String)) -> Result<(), Failure> {
+    let mut meshes = Meshes::from_model(model, say);
     if let Some(weld) = args.weld {
         meshes.weld(weld);
     }

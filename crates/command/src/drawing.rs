@@ -11,6 +11,7 @@ use crate::edges::EdgeArgs;
 use crate::framing::FramingArgs;
 use crate::look::LookArgs;
 use crate::reading::InputArgs;
+use crate::scalars::ScalarArgs;
 use crate::tolerance::ToleranceArgs;
 
 /// How the scene is drawn; options override the scene file.
@@ -28,7 +29,7 @@ pub(crate) struct DrawingArgs {
     /// How surfaces reflect [default: the scene's; blinn-phong for a model]
     #[arg(long, value_parser = reflectances())]
     pub(crate) reflectance: Option<Reflectance>,
-    /// Coverage samples a pixel: 1, or 4 for smooth edges [default: the scene's; 4 for a model]
+    /// Samples a pixel: 1, 4 for smooth edges, or 16 or 64, each shaded [default: the scene's; 4 for a model]
     #[arg(long, value_parser = samples())]
     pub(crate) samples: Option<u32>,
     /// The treatment of intensities above 1: clamp, renormalise, reinhard or aces; renormalise with the share of the
@@ -44,6 +45,8 @@ pub(crate) struct DrawingArgs {
     pub(crate) tolerance: ToleranceArgs,
     #[command(flatten)]
     pub(crate) edges: EdgeArgs,
+    #[command(flatten)]
+    pub(crate) scalars: ScalarArgs,
     #[command(flatten)]
     pub(crate) adapter: AdapterArgs,
 }
@@ -88,8 +91,13 @@ fn reflectances() -> impl TypedValueParser<Value = Reflectance> {
 }
 
 fn samples() -> impl TypedValueParser<Value = u32> {
-    let [one, four] = [("1", "The middle of the pixel"), ("4", "Four points of it")];
-    let values = [one, four].map(|(number, help)| PossibleValue::new(number).help(help));
+    let values = [
+        ("1", "The middle of the pixel"),
+        ("4", "Four points of it for coverage"),
+        ("16", "As many frames, moved by quarters of a pixel"),
+        ("64", "As many frames, moved by eighths of a pixel"),
+    ];
+    let values = values.map(|(number, help)| PossibleValue::new(number).help(help));
     PossibleValuesParser::new(values).try_map(|text| text.parse::<u32>())
 }
 
@@ -128,12 +136,13 @@ mod tests {
             ("flat", Shading::Flat),
             ("gouraud", Shading::Gouraud),
             ("phong", Shading::Phong),
+            ("unlit", Shading::Unlit),
             ("auto", Shading::Phong),
         ] {
             assert_eq!(read(word).map(|line| line.look.shading()).ok(), Some(Some(shading)), "{word}");
         }
         let error = read("smooth").err().map(|error| error.to_string()).unwrap_or_default();
-        assert!(error.contains("[possible values: flat, gouraud, phong]"), "{error}");
+        assert!(error.contains("[possible values: flat, gouraud, phong, unlit]"), "{error}");
     }
 
     #[test]

@@ -48,6 +48,12 @@ impl FramingArgs {
         view.is_some() || up.is_some() || *ortho || fit.is_some() || zoom.is_some()
     }
 
+    /// The upright axis of the model: that of `--up`, or of a camera of the scene that frames all objects.
+    pub(crate) fn upright(&self, scene: &SceneFile) -> Vec3 {
+        let of_camera = || scene.camera.as_ref().filter(|camera| camera.view.is_some()).map(|camera| camera.up.into());
+        self.up.or_else(of_camera).and_then(Vec3::try_normalize).unwrap_or(Vec3::Y)
+    }
+
     /// The framing from another view.
     pub(crate) fn seen_from(&self, view: View) -> Framing {
         let framing = Framing::new(view, self.up.unwrap_or(Vec3::Y));

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use clap::Args;
-use halfway::mesh::{AlphaMode, LodGroup, Mesh, Model, Normals, SourceLightKind, SourceMaterial, SourceProjection};
+use halfway::mesh::{
+    AlphaMode, LodGroup, Mesh, Model, Normals, ScalarValues, SourceLightKind, SourceMaterial, SourceProjection,
+};
 use halfway::prelude::Vec3;
 
 use crate::failure::Failure;
@@ -95,6 +97,14 @@ fn print_model(file: &Path, model: &Model, levels: bool) {
         if levels {
             print_levels(&part.mesh);
         }
+    }
+    for property in model.properties.iter() {
+        let range = match property.values.range() {
+            Some([low, high]) => format!("from {low} to {high}"),
+            None => "no finite number".to_owned(),
+        };
+        let on = if matches!(property.values, ScalarValues::Vertices(_)) { "vertices" } else { "faces" };
+        println!("property   \"{}\" of {on}: {range}", property.name);
     }
     model.materials.iter().for_each(print_material);
     for light in &model.lights {

@@ -8,8 +8,7 @@ use halfway::lighting::{LightRig, View};
 use halfway::mesh::Normals;
 use halfway::prelude::*;
 use halfway::scene::{
-    CameraEntry, LoadedModel, MeshEntry, ObjectEntry, SceneError, SceneFile, Spawned, rig_lights, spawn,
-    spawn_seen_from,
+    CameraEntry, LoadedModel, MeshEntry, ObjectEntry, SceneError, SceneFile, Spawned, spawn, spawn_seen_from,
 };
 
 use crate::drawing::{DrawingArgs, SizeArgs};
@@ -70,7 +69,8 @@ impl SceneInput {
         if let Some(shading) = args.shading() {
             scene.shading = shading;
             scene.all_cameras_mut().for_each(|camera| camera.shading = None);
-            scene.objects.iter_mut().for_each(|object| object.shading = None);
+            // Over that of a model's own materials, too.
+            scene.objects.iter_mut().for_each(|object| object.shading = Some(shading));
         }
         if let Some(reflectance) = args.reflectance {
             scene.reflectance = reflectance;
@@ -98,6 +98,7 @@ impl SceneInput {
         }
         args.look.apply(scene);
         args.framing.apply(scene);
+        args.scalars.apply(scene);
         if args.framing.is_given() {
             input.see_alone();
         }
@@ -123,13 +124,14 @@ impl SceneInput {
     }
 
     /// Removes what is drawn over and behind the finished picture, by the same code for all renderers: lines along edges,
-    /// and backgrounds of more than one opaque colour. Returns whether there was any.
+    /// legends, and backgrounds of more than one opaque colour. Returns whether there was any.
     pub(crate) fn remove_what_is_laid_over(&mut self) -> bool {
         let scene = &mut self.scene;
         let edges = scene.objects.iter_mut().filter_map(|object| object.edges.take()).count();
         let is_plain = scene.background_below.is_none() && scene.background_opacity >= 1.0;
         (scene.background_below, scene.background_opacity) = (None, 1.0);
-        scene.edges.take().is_some() || edges > 0 || !is_plain
+        let legends = scene.all_cameras_mut().filter_map(|camera| camera.legend.take()).count();
+        scene.edges.take().is_some() || edges + legends > 0 || !is_plain
     }
 
     /// The file's name without its folder.
@@ -173,7 +175,7 @@ fn scene_of(models: Vec<LoadedModel>) -> SceneFile {
     SceneFile {
         camera: Some(CameraEntry { view: Some(View::default()), fov_y_deg: 30.0, ..CameraEntry::default() }),
         background: BACKGROUND,
-        lights: (!has_lights).then(|| rig_lights(LightRig::Studio)),
+        lights: (!has_lights).then(|| LightRig::Studio.into()),
         objects: models.into_iter().map(object).collect(),
         ..SceneFile::default()
     }

@@ -5,7 +5,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use halfway::lighting::LightRig;
 use halfway::mesh::{NormalWeighting, Normals};
 use halfway::prelude::*;
-use halfway::scene::{MaterialEntry, SceneFile, rig_lights};
+use halfway::scene::{MaterialEntry, SceneFile};
 
 use crate::choices::{choice, values};
 
@@ -47,7 +47,7 @@ impl LookArgs {
             (scene.background, scene.background_below, scene.background_opacity) = (above, below, opacity);
         }
         if let Some(rig) = self.lights {
-            scene.lights = Some(rig_lights(rig));
+            scene.lights = Some(rig.into());
         }
     }
 }

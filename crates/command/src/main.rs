@@ -21,6 +21,7 @@ mod picture;
 mod progress;
 mod reading;
 mod render;
+mod scalars;
 #[cfg(feature = "measure")]
 mod scenery;
 mod sheet;

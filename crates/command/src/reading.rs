@@ -75,8 +75,16 @@ impl ReadingArgs {
         Self { limit: Some(limit), ..Self::default() }
     }
 
-    fn model_format(&self) -> Option<Format> {
-        self.format.iter().find_map(|format| if let GivenFormat::Model(format) = format { Some(*format) } else { None })
+    /// The formats of models, in their order.
+    pub(crate) fn model_formats(&self) -> Vec<Format> {
+        let of_model =
+            |format: &GivenFormat| if let GivenFormat::Model(format) = format { Some(*format) } else { None };
+        self.format.iter().filter_map(of_model).collect()
+    }
+
+    /// How a model of this format is read.
+    pub(crate) fn options(&self, format: Option<Format>) -> LoadOptions {
+        LoadOptions { outside: self.outside, format, limit: self.limit }
     }
 
     /// The ending of the picture's format.
@@ -95,8 +103,7 @@ impl ReadingArgs {
 
     /// Reads a model file or standard input.
     pub(crate) fn load(&self, file: &Path) -> Result<Model, Failure> {
-        let Self { outside, limit, .. } = *self;
-        let options = LoadOptions { outside, format: self.model_format(), limit };
+        let options = self.options(self.model_formats().first().copied());
         let model = if file == Path::new(STANDARD) {
             let Some(format) = options.format else {
                 return Err("standard input: the format is not known; expected --format smf, obj, glb, ply or stl"

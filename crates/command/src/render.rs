@@ -32,7 +32,7 @@ pub(crate) struct RenderArgs {
     /// Frames A to B − 1 of the scene's animation, frame f at f/--fps seconds; with --turntable, of the turn
     #[arg(long, value_name = "A..B", value_parser = parse_frames)]
     frames: Option<Range<u32>>,
-    /// Turn the camera once around the scene's upright axis in N frames
+    /// Turn the camera once around the upright axis of the scene, or --up, in N frames
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_FRAMES)))]
     turntable: Option<u32>,
     /// Frames a second [default: 30]
@@ -52,7 +52,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "FILE")]
     contact_sheet: Option<PathBuf>,
     /// Also write what the picture shows beside colour, each quantity to a .exr or .png; in one .exr they are layers
-    #[arg(long, value_name = "QUANTITY=FILE,…", value_delimiter = ',', value_parser = parse_quantity, conflicts_with = "reference")]
+    #[arg(long, value_name = "QUANTITY=FILE,…", value_delimiter = ',', value_parser = parse_quantity)]
     also: Vec<(Quantity, PathBuf)>,
     /// Draw with the reference renderer: every pixel in 64-bit arithmetic on the CPU, without a graphics adapter
     #[arg(long, conflicts_with = "adapter")]
@@ -60,7 +60,7 @@ pub(crate) struct RenderArgs {
     /// Draw spheres, teapots and other surfaces that are known by formula exactly, in place of their triangles
     #[arg(long, requires = "reference")]
     surface: bool,
-    /// N × N samples a pixel, 1 to 16 [default: 1; 2 where the scene has four samples]
+    /// N × N samples a pixel, 1 to 16 [default: as many as the scene has]
     #[arg(long, value_name = "N", requires = "reference", value_parser = clap::value_parser!(u32).range(1..=16))]
     supersample: Option<u32>,
 }
@@ -165,7 +165,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         return draw_sheet(args, views, &recording, &drawer, (&mut app, spawned.camera));
     }
     if let Some(frames) = args.turntable {
-        Turntable::turn(&mut app, spawned.camera, std::f32::consts::TAU / frames as f32);
+        let up = args.drawing.framing.upright(&input.scene);
+        Turntable::turn(&mut app, spawned.camera, up, std::f32::consts::TAU / frames as f32);
     } else if !spawned.is_animated {
         let still = |option: &str| format!("{option}: {} has no animation", input.name());
         if args.frames.is_some() {

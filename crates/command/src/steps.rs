@@ -7,13 +7,15 @@ use halfway::mesh::{Mesh, MeshError, Model, NormalReport, Normals, Part, RepairR
 /// The meshes of a model, each once however many parts show it; counted once for each part.
 pub(crate) struct Meshes {
     /// Each mesh with the parts that show it.
-    meshes: Vec<(Mesh, Vec<usize>)>,
+    all: Vec<(Mesh, Vec<usize>)>,
     /// How many parts had tangents.
     tangents: usize,
+    /// Prints a line.
+    say: fn(String),
 }
 
 impl Meshes {
-    pub(crate) fn from_model(model: &Model) -> Self {
+    pub(crate) fn from_model(model: &Model, say: fn(String)) -> Self {
         let mut meshes: Vec<(Mesh, Vec<usize>)> = Vec::new();
         let mut numbers = HashMap::new();
         for (i, part) in model.parts.iter().enumerate() {
@@ -24,39 +26,39 @@ impl Meshes {
                 None => meshes.push((part.mesh.clone(), vec![i])),
             }
         }
-        Self { tangents: with_tangents(model), meshes }
+        Self { tangents: with_tangents(model), all: meshes, say }
     }
 
     /// Gives the parts their meshes; parts without a mesh are dropped.
     pub(crate) fn put_into(self, model: &mut Model) {
         let mut parts: Vec<_> = std::mem::take(&mut model.parts).into_iter().map(Some).collect();
         let mut changed = Vec::new();
-        for (mesh, shown) in self.meshes {
+        for (mesh, shown) in self.all {
             changed.extend(shown.into_iter().filter_map(|i| Some((i, mesh.clone(), parts[i].take()?))));
         }
         changed.sort_by_key(|&(i, ..)| i);
         model.parts = changed.into_iter().map(|(_, mesh, part)| Part { mesh, ..part }).collect();
         for part in parts.into_iter().flatten() {
-            println!("lost       part \"{}\", of which no triangle is left", part.name);
+            (self.say)(format!("lost       part \"{}\", of which no triangle is left", part.name));
         }
         let tangents = self.tangents.saturating_sub(with_tangents(model));
         if tangents > 0 {
-            println!("lost       the tangents of {tangents} parts, which belonged to other normals");
+            (self.say)(format!("lost       the tangents of {tangents} parts, which belonged to other normals"));
         }
     }
 
     fn triangles(&self) -> usize {
-        self.meshes.iter().map(|(mesh, parts)| mesh.triangle_count() * parts.len()).sum()
+        self.all.iter().map(|(mesh, parts)| mesh.triangle_count() * parts.len()).sum()
     }
 
     fn vertices(&self) -> usize {
-        self.meshes.iter().map(|(mesh, parts)| mesh.positions().len() * parts.len()).sum()
+        self.all.iter().map(|(mesh, parts)| mesh.positions().len() * parts.len()).sum()
     }
 
     /// Changes every mesh; `step` also gets the number of parts that show it. Meshes without triangles are dropped.
     fn change(&mut self, mut step: impl FnMut(&Mesh, usize) -> Option<Mesh>) {
-        let meshes = std::mem::take(&mut self.meshes).into_iter();
-        self.meshes = meshes.filter_map(|(mesh, parts)| Some((step(&mesh, parts.len())?, parts))).collect();
+        let meshes = std::mem::take(&mut self.all).into_iter();
+        self.all = meshes.filter_map(|(mesh, parts)| Some((step(&mesh, parts.len())?, parts))).collect();
     }
 
     pub(crate) fn weld(&mut self, weld: Weld) {
@@ -69,7 +71,9 @@ impl Meshes {
             Some(welded)
         });
         let WeldReport { merged_vertices, collapsed_triangles } = all;
-        println!("weld       {merged_vertices} of {before} vertices merged, {collapsed_triangles} triangles collapsed");
+        (self.say)(format!(
+            "weld       {merged_vertices} of {before} vertices merged, {collapsed_triangles} triangles collapsed"
+        ));
     }
 
     pub(crate) fn repair(&mut self) {
@@ -84,15 +88,15 @@ impl Meshes {
             all.against_normals += times * report.against_normals;
             Some(repaired)
         });
-        println!("repair     {all}");
+        (self.say)(format!("repair     {all}"));
     }
 
     pub(crate) fn subdivide(&mut self, scheme: Subdivision, times: u32) -> Result<(), MeshError> {
         let before = self.triangles();
-        for (mesh, _) in &mut self.meshes {
+        for (mesh, _) in &mut self.all {
             *mesh = mesh.subdivided(scheme, times)?;
         }
-        println!("subdivide  {before} to {} triangles", self.triangles());
+        (self.say)(format!("subdivide  {before} to {} triangles", self.triangles()));
         Ok(())
     }
 
@@ -107,7 +111,7 @@ impl Meshes {
             Some(level.mesh)
         });
         let after = self.triangles();
-        println!("simplify   {before} to {after} triangles; no point is further off than {error:.3e}");
+        (self.say)(format!("simplify   {before} to {after} triangles; no point is further off than {error:.3e}"));
     }
 
     pub(crate) fn make_normals(&mut self, normals: Normals) {
@@ -120,17 +124,18 @@ impl Meshes {
             all.without_face += times * report.without_face;
             Some(mesh)
         });
-        print!("normals    {before} to {} vertices", self.vertices());
+        let vertices = self.vertices();
+        let mut line = vec![format!("normals    {before} to {vertices} vertices")];
         for (count, what) in [
             (all.degenerate_triangles, "degenerate triangles without one"),
             (all.cancelled, "vertices whose faces cancel out"),
             (all.without_face, "vertices of no face"),
         ] {
             if count > 0 {
-                print!(", {count} {what}");
+                line.push(format!("{count} {what}"));
             }
         }
-        println!();
+        (self.say)(line.join(", "));
     }
 }
 

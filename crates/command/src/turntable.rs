@@ -8,17 +8,18 @@ use halfway::scene::AnimationSystems;
 pub(crate) struct Turntable {
     camera: Entity,
     start: Transform,
-    /// In radians a frame, about the upright axis.
+    /// In radians a frame, about `up`.
     step: f32,
+    up: Vec3,
     frame: u32,
     pivot: Option<Vec3>,
 }
 
 impl Turntable {
-    /// Turns `camera` by `step` radians a frame from the second frame on.
-    pub(crate) fn turn(app: &mut App, camera: Entity, step: f32) {
+    /// Turns `camera` about `up`, of unit length, by `step` radians a frame from the second frame on.
+    pub(crate) fn turn(app: &mut App, camera: Entity, up: Vec3, step: f32) {
         let start = app.world().get::<Transform>(camera).copied().unwrap_or_default();
-        app.insert_resource(Self { camera, start, step, frame: 0, pivot: None })
+        app.insert_resource(Self { camera, start, step, up, frame: 0, pivot: None })
             .add_systems(Update, turn.after(AnimationSystems));
     }
 
@@ -46,7 +47,7 @@ fn turn(
         table.pivot = Some(pivot);
         if let Ok(mut transform) = cameras.get_mut(table.camera) {
             *transform = table.start;
-            transform.rotate_around(pivot, Quat::from_rotation_y(table.step * table.frame as f32));
+            transform.rotate_around(pivot, Quat::from_axis_angle(table.up, table.step * table.frame as f32));
         }
     }
     table.frame += 1;
@@ -66,7 +67,7 @@ mod tests {
             app.world_mut().spawn((Mesh3d(mesh.clone()), Transform::from_translation(at)));
         }
         let camera = app.world_mut().spawn((Camera::default(), Transform::from_xyz(0.0, 2.0, 3.0))).id();
-        Turntable::turn(&mut app, camera, 1.0_f32.to_radians());
+        Turntable::turn(&mut app, camera, Vec3::Y, 1.0_f32.to_radians());
         app.finish();
         app.cleanup();
         for frame in 0..=90_u16 {

@@ -16,6 +16,12 @@ pub(crate) struct ViewArgs {
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     args.drawing.input.without_picture()?;
     let input = SceneInput::read(&args.drawing)?;
+    if input.scene.all_cameras().any(|camera| camera.legend.is_some()) {
+        eprintln!("warning: a window shows no legend; `halfway render` draws it");
+    }
+    if args.drawing.samples.is_some_and(|samples| samples > 4) {
+        eprintln!("warning: a window has four samples a pixel; `halfway render` averages more");
+    }
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name()));
     app.insert_resource(args.drawing.adapter.choice());

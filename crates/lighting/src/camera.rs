@@ -3,7 +3,7 @@
 use crate::LinearRgba;
 use crate::equations::vector::Real;
 use crate::equations::{Eye, Transcendental, srgb_encoded};
-use crate::invalid::{Fields, InvalidValue};
+use crate::invalid::{Fields, InvalidValue, Problem};
 use crate::range::Range;
 use crate::{Intensity, Projection, Viewer};
 
@@ -66,22 +66,62 @@ impl Default for Camera {
     }
 }
 
-/// Coverage samples a pixel. Shading is still evaluated once a pixel and triangle.
+/// Samples a pixel.
+///
+/// A frame has one or four. Pictures that are taken (`take_picture`, `render_picture`, files) may have 16 or 64: they are
+/// the mean of as many frames of one sample each, moved by parts of a pixel, in linear light, and each sample is shaded.
+/// In windows and textures such a camera has four.
+///
+/// ```
+/// use halfway_lighting::{Camera, Samples};
+///
+/// let camera = Camera { samples: Samples::Sixteen, ..Camera::default() };
+/// assert_eq!((camera.samples.count(), camera.samples.of_a_frame()), (16, Samples::Four));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Samples {
     /// The pixel's centre decides.
     #[default]
     One,
-    /// Four samples, averaged (multisample anti-aliasing).
+    /// Four samples of coverage, averaged (multisample anti-aliasing); shading is evaluated once a pixel and triangle.
     Four,
+    /// Four rows of four samples, each shaded.
+    Sixteen,
+    /// Eight rows of eight samples, each shaded.
+    SixtyFour,
 }
 
 impl Samples {
-    /// 1 or 4.
-    pub fn count(self) -> u32 {
+    /// All of them, the fewest first.
+    pub const ALL: [Self; 4] = [Self::One, Self::Four, Self::Sixteen, Self::SixtyFour];
+
+    /// 1, 4, 16 or 64.
+    pub const fn count(self) -> u32 {
         match self {
             Self::One => 1,
             Self::Four => 4,
+            Self::Sixteen => 16,
+            Self::SixtyFour => 64,
+        }
+    }
+
+    /// The samples of this number.
+    pub fn from_count(count: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|samples| samples.count() == count)
+    }
+
+    /// Those of one frame: one or four.
+    #[must_use]
+    pub fn of_a_frame(self) -> Self {
+        if self == Self::One { Self::One } else { Self::Four }
+    }
+
+    /// How many samples lie along each side of a pixel, where they are of several frames: 4 or 8.
+    pub fn side(self) -> Option<u32> {
+        match self {
+            Self::One | Self::Four => None,
+            Self::Sixteen => Some(4),
+            Self::SixtyFour => Some(8),
         }
     }
 }
@@ -200,6 +240,11 @@ impl Camera {
             fields.color("background_below", below)?;
         }
         fields.within("background_opacity", self.background_opacity, Range::UNIT)?;
-        self.intensity.validate()
+        self.intensity.validate()?;
+        if self.samples.side().is_some() && self.intensity.acts_on_pictures() {
+            let expected = "1 or 4 beside this intensity policy, which acts on a whole frame";
+            return Err(fields.error("samples", Problem::Number { value: self.samples.count() as f32, expected }));
+        }
+        Ok(())
     }
 }

@@ -19,7 +19,7 @@ pub struct Choice<T> {
 /// use halfway_lighting::{Choices, Shading};
 ///
 /// let keys: Vec<&str> = Shading::CHOICES.iter().map(|choice| choice.key).collect();
-/// assert_eq!(keys, ["flat", "gouraud", "phong"]);
+/// assert_eq!(keys, ["flat", "gouraud", "phong", "unlit"]);
 /// assert_eq!(Shading::from_key("gouraud"), Some(Shading::Gouraud));
 /// assert_eq!(Shading::Gouraud.choice().map(|choice| choice.name), Some("Gouraud"));
 /// ```

@@ -19,6 +19,8 @@
 //! | sky, ground | colours of a light from all around, which adds kd·lerp(ground, sky, (1 + n·d)/2), d toward the sky | ≥ 0 | [`HemisphereLight`] |
 //! | v | local viewer: toward the eye; infinite viewer: (0, 0, 1) in eye space; orthographic camera: v = +Z in eye space at every point | | [`Viewer`], [`Projection`] |
 //!
+//! Under [`Shading::Unlit`] I = kd, whatever shines: neither lights nor ambient light, environments or emission count.
+//!
 //! All vectors have unit length, all colours are linear RGB (a [`LinearRgba`] whose alpha is
 //! ignored), angles are in radians. Sources: Phong 1975 and Blinn 1977 for S, OpenGL 2.1 §2.14.1 for the sum, the
 //! falloff and the cone, `KHR_lights_punctual` for range and inner cone. Shading is local: no shadows, no
@@ -83,6 +85,7 @@ pub mod homogeneous;
 mod intensity;
 mod invalid;
 mod layers;
+mod legend;
 mod light_colors;
 mod light_tree;
 pub mod lights;
@@ -124,6 +127,7 @@ pub use frequency::Frequency;
 pub use intensity::Intensity;
 pub use invalid::{Fields, InvalidValue, Problem};
 pub use layers::Layers;
+pub use legend::Legend;
 pub use lights::{Attenuation, Cone, DirectionalLight, HemisphereLight, LightComponent, PointLight, SpotLight};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};

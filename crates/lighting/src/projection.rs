@@ -321,6 +321,17 @@ impl Projection {
         [y * width / height * pixel_aspect, y]
     }
 
+    /// The projection of which a picture of this many columns and rows shows at the middle of each pixel what this one's
+    /// shows so many pixels to the right of it and below it.
+    #[must_use]
+    pub fn moved_by_pixels(self, [right, down]: [f64; 2], [width, height]: [u32; 2]) -> Self {
+        let [x, y] = self.half_extent([width, height]);
+        let pixel = [2.0 * x / f64::from(width), 2.0 * y / f64::from(height)].map(|size| size / self.height_at(1.0));
+        let film = self.film();
+        let shift = [f64::from(film.shift[0]) + right * pixel[0], f64::from(film.shift[1]) - down * pixel[1]];
+        self.with_film(Film { shift: shift.map(|along| along as f32), ..film })
+    }
+
     /// The middle of the picture where w of clip space is 1, in units of eye space.
     pub fn middle(&self) -> [f64; 2] {
         self.film().shift.map(|along| f64::from(along) * self.height_at(1.0))

@@ -18,6 +18,8 @@ use crate::invalid::{Fields, InvalidValue, Problem};
 /// let sharp = Terms { diffuse: Frequency::Vertex, specular: Frequency::Fragment };
 /// world.spawn((Material::BRASS, Shading::Terms(sharp)));
 /// assert_eq!(Terms::from(Shading::Gouraud), Terms::both(Frequency::Vertex));
+/// // A label keeps its colours in the dark.
+/// world.spawn((Material::BRASS, Shading::Unlit));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
@@ -31,12 +33,19 @@ pub enum Shading {
     /// At each fragment with the interpolated, renormalised normal.
     #[default]
     Phong,
+    /// The base colour as it is, whatever the lights: I = kd × the color of the vertices × the color image × the solid.
+    /// No light, no ambient light, no environment and no emission has part in it, nor do images other than those of the
+    /// color and the opacity. Opacity, sides, lines and tone mapping are as ever. glTF's `KHR_materials_unlit` is this.
+    Unlit,
     /// Each term of the lights at a frequency of its own.
     Terms(Terms),
 }
 
 impl Shading {
-    /// Its name for readers: "flat", "Gouraud", "Phong"; "mixed terms" of [`Shading::Terms`], also where another name
+    /// The shadings with names that light has part in.
+    pub const LIT: [Self; 3] = [Self::Flat, Self::Gouraud, Self::Phong];
+
+    /// Its name for readers: "flat", "Gouraud", "Phong", "unlit"; "mixed terms" of [`Shading::Terms`], also where another name
     /// fits.
     pub fn name(self) -> &'static str {
         self.choice().map_or("mixed terms", |choice| choice.name)
@@ -66,12 +75,13 @@ impl Choices for Shading {
             name: "Phong",
             meaning: "At every fragment; normals are interpolated.",
         },
+        Choice { value: Self::Unlit, key: "unlit", name: "unlit", meaning: "The base color as it is, without lights." },
     ];
 }
 
 /// Where each term of an object's lights is evaluated: the value of [`Shading::Terms`], and what every shading comes to.
 ///
-/// Flat is `Triangle` for both, Gouraud `Vertex`, Phong `Fragment` (`Terms::from(shading)`). The hybrid that keeps
+/// Flat is `Triangle` for both, Gouraud `Vertex`, Phong `Fragment`, and unlit `Never` (`Terms::from(shading)`). The hybrid that keeps
 /// highlights sharp and spares the rest is `Terms { diffuse: Vertex, specular: Fragment }`. Emission and ambient are
 /// always there; an ambient colour that attenuates goes with the diffuse term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -124,6 +134,7 @@ impl From<Shading> for Terms {
             Shading::Flat => Self::both(Frequency::Triangle),
             Shading::Gouraud => Self::both(Frequency::Vertex),
             Shading::Phong => Self::both(Frequency::Fragment),
+            Shading::Unlit => Self::NONE,
             Shading::Terms(terms) => terms,
         }
     }

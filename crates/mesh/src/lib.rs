@@ -41,8 +41,8 @@ pub use mesh::{Mesh, MeshError};
 pub use mesh_edges::MeshEdge;
 #[cfg(feature = "formats")]
 pub use model::{
-    AlphaMode, GltfMaps, MetallicRoughness, Model, MtlMaps, MtlMaterial, Part, SourceCamera, SourceLight,
-    SourceLightKind, SourceMaterial, SourceProjection,
+    AlphaMode, GltfMaps, MetallicRoughness, Model, MtlMaps, MtlMaterial, Part, Property, ScalarValues, SourceCamera,
+    SourceLight, SourceLightKind, SourceMaterial, SourceProjection,
 };
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
 pub use occlusion::{OcclusionBake, OcclusionError, OcclusionImage};

@@ -293,6 +293,31 @@ impl Mesh {
         Ok(self.changed(|data| data.colors = Some(Arc::new(colors))))
     }
 
+    /// The mesh without colours at its vertices.
+    #[must_use]
+    pub fn without_colors(self) -> Self {
+        self.changed(|data| data.colors = None)
+    }
+
+    /// The mesh with a pair of texture coordinates a vertex, in place of those that it has. Tangents, which belong to the
+    /// old ones, are dropped.
+    ///
+    /// # Errors
+    /// Not one pair a vertex, or one that is not finite.
+    pub fn with_uvs(self, uvs: Vec<Vec2>) -> Result<Self, MeshError> {
+        check_attribute("uv", self.positions().len(), uvs.iter().map(|uv| [uv.x, uv.y, 0.0]))?;
+        Ok(self.changed(|data| {
+            data.uvs = Some(Arc::new(uvs));
+            data.tangents = None;
+        }))
+    }
+
+    /// The mesh with vertices that no two triangles share: three for each, in their order.
+    #[must_use]
+    pub fn unshared(&self) -> Self {
+        self.selected(self.indices(), (0..self.indices().len() as u32).collect())
+    }
+
     /// The mesh with a second pair of texture coordinates a vertex, beside the first.
     ///
     /// # Errors

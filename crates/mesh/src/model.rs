@@ -1,5 +1,7 @@
 //! The contents of a model file, in the file's own terms.
 
+use std::sync::Arc;
+
 use glam::Mat4;
 
 use crate::{Bounds, Mesh, SourceMap};
@@ -28,6 +30,8 @@ pub struct Model {
     pub lights: Vec<SourceLight>,
     /// The cameras.
     pub cameras: Vec<SourceCamera>,
+    /// Numbers beside the meshes, such as temperatures.
+    pub properties: Arc<[Property]>,
     /// Sentences about everything that was skipped or corrected.
     pub warnings: Vec<String>,
 }
@@ -58,6 +62,48 @@ pub struct Part {
     pub material: Option<usize>,
     /// The transform of the part; may mirror, but is always finite and affine.
     pub world_from_part: Mat4,
+}
+
+/// Numbers that a file has beside what a mesh is made of: of PLY, the properties of vertices and faces that are no
+/// positions, normals, colours or texture coordinates.
+///
+/// ```
+/// use halfway_mesh::{Format, ScalarValues, load_bytes};
+///
+/// let text = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+///     property float heat\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+///     0 0 0 20\n1 0 0 25\n0 1 0 30\n3 0 1 2\n";
+/// let model = load_bytes(Format::Ply, text)?;
+/// assert_eq!(model.properties[0].name, "heat");
+/// assert_eq!(model.properties[0].values, ScalarValues::Vertices(vec![20.0, 25.0, 30.0]));
+/// # Ok::<(), halfway_mesh::LoadError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Property {
+    /// Its name in the file.
+    pub name: String,
+    /// The index of its part in [`Model::parts`].
+    pub part: usize,
+    /// The numbers for the part's mesh as it was read. All triangles of a polygon have the number of that.
+    pub values: ScalarValues,
+}
+
+/// Numbers on a mesh. They may be infinite or NaN.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ScalarValues {
+    /// One a vertex.
+    Vertices(Vec<f32>),
+    /// One a triangle.
+    Faces(Vec<f32>),
+}
+
+impl ScalarValues {
+    /// The least and the greatest of the finite ones; `None` where there are none.
+    pub fn range(&self) -> Option<[f32; 2]> {
+        let (Self::Vertices(values) | Self::Faces(values)) = self;
+        let finite = || values.iter().copied().filter(|value| value.is_finite());
+        Some([finite().reduce(f32::min)?, finite().reduce(f32::max)?])
+    }
 }
 
 /// A material in the terms of its file.
@@ -149,6 +195,8 @@ pub struct MetallicRoughness {
     pub emissive: [f32; 3],
     /// `doubleSided`: both faces are shown.
     pub double_sided: bool,
+    /// `KHR_materials_unlit`: the base color is shown as it is.
+    pub unlit: bool,
     /// `alphaMode` and `alphaCutoff`.
     pub alpha: AlphaMode,
     /// The images.

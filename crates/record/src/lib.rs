@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod oracle_surfaces;
 pub mod output;
 mod recording;
 mod reference;

@@ -9,12 +9,13 @@ use bevy_ecs::prelude::{Entity, Resource, World};
 use bevy_ecs::system::SystemState;
 use bevy_math::UVec2;
 use halfway_lighting::{
-    Camera, CameraTurn, Edges, Intensity, Load, Samples, SharedPart, SharingCameras, current_camera,
+    Camera, CameraTurn, Edges, Encoding, Intensity, Legend, Load, Samples, SharedPart, SharingCameras, current_camera,
 };
 use halfway_reference::{Mode, Oracle, OracleError};
-use halfway_render::{Picture, Pixels, RenderError, Surfaces, draw_background, draw_edges, draw_kept};
+use halfway_render::{Picture, Pixels, RenderError, draw_background, draw_edges, draw_kept, draw_legend};
 use image::DynamicImage;
 
+use crate::oracle_surfaces::{OracleFrame, surfaces};
 use crate::recording::{FrameToDraw, RecordError};
 
 /// Draws frames with the reference renderer: in f64 on the CPU, without a graphics adapter.
@@ -38,7 +39,7 @@ use crate::recording::{FrameToDraw, RecordError};
 pub struct ReferenceDrawing {
     /// The geometry that is drawn for each object. Default [`Mode::Mesh`].
     pub mode: Mode,
-    /// The square root of the samples a pixel. `None`, the default, is 2 if the camera has four samples, else 1.
+    /// The square root of the samples a pixel. `None`, the default, is that of the camera's: 1, 2, 4 or 8.
     pub supersampling: Option<u32>,
 }
 
@@ -60,8 +61,11 @@ impl ReferenceDrawing {
     ) -> Result<Picture, RecordError> {
         app.update();
         let parts = sharing(app.world_mut(), frame.size);
+        app.insert_resource(OracleFrame(frame.size));
         if parts.is_empty() {
-            return self.of_camera(app, frame, None, progress);
+            let mut picture = self.of_camera(app, frame, None, progress)?;
+            add_legend(app.world_mut(), &mut picture);
+            return Ok(picture);
         }
         let mut whole: Option<Picture> = None;
         for SharedPart { camera, corner, size, load } in parts {
@@ -73,7 +77,9 @@ impl ReferenceDrawing {
             let part = part?;
             whole.get_or_insert_with(|| part.black(frame.size)).put(corner, &part)?;
         }
-        Ok(whole.ok_or(RenderError::NoCamera)?)
+        let mut whole = whole.ok_or(RenderError::NoCamera)?;
+        add_legend(app.world_mut(), &mut whole);
+        Ok(whole)
     }
 
     /// The picture of the camera to draw, over what is `kept` of other cameras.
@@ -89,6 +95,8 @@ impl ReferenceDrawing {
         let supersampling = self.supersampling.unwrap_or(match camera.samples {
             Samples::One => 1,
             Samples::Four => 2,
+            Samples::Sixteen => 4,
+            Samples::SixtyFour => 8,
         });
         let oracle = Oracle::new(app.world_mut(), frame.size)?
             .with_mode(self.mode)
@@ -115,19 +123,23 @@ impl ReferenceDrawing {
         }
         if world.query::<&Edges>().iter(world).next().is_some() {
             // Edges are those of the mesh, whatever is drawn for it.
-            let oracle = Oracle::new(world, frame.size)?;
-            let surfaces = Surfaces::found_by(world, frame.size, |x, y| {
-                let nearest = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest?;
-                Some((nearest.object, nearest.triangle?))
-            })?;
+            let surfaces = surfaces(world, frame.size)?;
             draw_edges(world, &mut picture, &surfaces)?;
         }
         Ok(picture)
     }
 }
 
+/// Draws the legend, in the encoding of the first camera.
+fn add_legend(world: &mut World, picture: &mut Picture) {
+    let encoding = world.query::<&Camera>().iter(world).next().map_or_else(Encoding::default, |camera| camera.encoding);
+    if let Some(legend) = world.get_resource::<Legend>() {
+        draw_legend(picture, legend, encoding);
+    }
+}
+
 /// The cameras that share a picture of this size.
-fn sharing(world: &mut World, size: UVec2) -> Vec<SharedPart> {
+pub(crate) fn sharing(world: &mut World, size: UVec2) -> Vec<SharedPart> {
     let mut cameras = SystemState::<SharingCameras>::new(world);
     cameras.get(world).map(|cameras| cameras.parts(size.to_array())).unwrap_or_default()
 }

@@ -1,31 +1,8 @@
 //! A legend in pictures that show numbers by colours.
 
 use crate::picture::Picture;
-use bevy_ecs::prelude::Resource;
 use font8x8::legacy::BASIC_LEGACY;
-use halfway_lighting::Encoding;
-
-/// A bar of the colours that stand for numbers, with ticks and a title, at the right edge of pictures that are taken
-/// ([`take_picture`](crate::take_picture), [`render_picture`](crate::render_picture), files). Windows do not show it, and
-/// pictures of less than 160 × 120 pixels have no room for it.
-///
-/// ```
-/// use bevy_app::App;
-/// use halfway_render::Legend;
-///
-/// let grey: Vec<[u8; 3]> = (0..=255).map(|level| [level; 3]).collect();
-/// App::new().insert_resource(Legend { title: "height, m".into(), range: [-1.0, 3.0], colors: grey });
-/// ```
-#[derive(Resource, Clone, Debug, PartialEq)]
-pub struct Legend {
-    /// The words above the bar. Characters other than those of ASCII are shown as `?`.
-    pub title: String,
-    /// The numbers at the lower and at the upper end of the bar, the lower first.
-    pub range: [f32; 2],
-    /// The colours from the lower end to the upper one, at even distances, in bytes of sRGB. Without any, nothing is
-    /// drawn.
-    pub colors: Vec<[u8; 3]>,
-}
+use halfway_lighting::{Encoding, Legend};
 
 /// The least picture with a legend.
 const LEAST: (u32, u32) = (160, 120);
@@ -36,44 +13,39 @@ const GLYPH: u32 = 8;
 const WHITE: [u8; 3] = [255; 3];
 const BLACK: [u8; 3] = [0; 3];
 
-impl Legend {
-    /// Draws it into a picture of a camera's encoding.
-    pub(crate) fn draw(&self, picture: &mut Picture, encoding: Encoding) {
-        let (width, height) = picture.dimensions();
-        if self.colors.is_empty() || width < LEAST.0 || height < LEAST.1 {
-            return;
-        }
-        let mut canvas = Canvas { picture, encoding, scale: if height < 480 { 1 } else { 2 } };
-        let unit = GLYPH * canvas.scale;
-        let labels: Vec<(f64, String)> = ticks(self.range.map(f64::from));
-        let widest = labels.iter().map(|(_, text)| text.len()).max().unwrap_or(0) as u32 * unit;
-        let (bar_width, bar_height) = (2 * unit, height / 2);
-        let (right, top) = (width.saturating_sub(widest + 2 * unit), (height - bar_height) / 2);
-        let left = right.saturating_sub(bar_width + unit / 2);
-        // A border of a pixel or two sets the bar off from any background.
-        let border = canvas.scale;
-        canvas.fill(
-            [left.saturating_sub(border), top - border],
-            [bar_width + 2 * border, bar_height + 2 * border],
-            BLACK,
-        );
-        for row in 0..bar_height {
-            let share = 1.0 - (f64::from(row) + 0.5) / f64::from(bar_height);
-            let color = self.colors[((share * self.colors.len() as f64) as usize).min(self.colors.len() - 1)];
-            canvas.fill([left, top + row], [bar_width, 1], color);
-        }
-        let [low, high] = self.range.map(f64::from);
-        for (number, text) in &labels {
-            let share = if high > low { (number - low) / (high - low) } else { 0.5 };
-            let y = f64::from(top) + (1.0 - share) * f64::from(bar_height);
-            let y = y.round() as u32;
-            canvas.fill([left + bar_width, y.saturating_sub(border / 2)], [unit / 2, border], WHITE);
-            canvas.write([left + bar_width + unit, y.saturating_sub(unit / 2)], text);
-        }
-        let title_width = self.title.chars().count() as u32 * unit;
-        let title_left = left.min(width.saturating_sub(title_width + unit));
-        canvas.write([title_left, top.saturating_sub(2 * unit)], &self.title);
+/// Draws a legend into a picture of a camera's encoding. [`take_picture`](crate::take_picture) does so by itself; for
+/// pictures of other renderers this is the way.
+pub fn draw_legend(picture: &mut Picture, legend: &Legend, encoding: Encoding) {
+    let (width, height) = picture.dimensions();
+    if legend.colors.is_empty() || width < LEAST.0 || height < LEAST.1 {
+        return;
     }
+    let mut canvas = Canvas { picture, encoding, scale: if height < 480 { 1 } else { 2 } };
+    let unit = GLYPH * canvas.scale;
+    let labels: Vec<(f64, String)> = ticks(legend.range.map(f64::from));
+    let widest = labels.iter().map(|(_, text)| text.len()).max().unwrap_or(0) as u32 * unit;
+    let (bar_width, bar_height) = (2 * unit, height / 2);
+    let (right, top) = (width.saturating_sub(widest + 2 * unit), (height - bar_height) / 2);
+    let left = right.saturating_sub(bar_width + unit / 2);
+    // A border of a pixel or two sets the bar off from any background.
+    let border = canvas.scale;
+    canvas.fill([left.saturating_sub(border), top - border], [bar_width + 2 * border, bar_height + 2 * border], BLACK);
+    for row in 0..bar_height {
+        let share = 1.0 - (f64::from(row) + 0.5) / f64::from(bar_height);
+        let color = legend.colors[((share * legend.colors.len() as f64) as usize).min(legend.colors.len() - 1)];
+        canvas.fill([left, top + row], [bar_width, 1], color);
+    }
+    let [low, high] = legend.range.map(f64::from);
+    for (number, text) in &labels {
+        let share = if high > low { (number - low) / (high - low) } else { 0.5 };
+        let y = f64::from(top) + (1.0 - share) * f64::from(bar_height);
+        let y = y.round() as u32;
+        canvas.fill([left + bar_width, y.saturating_sub(border / 2)], [unit / 2, border], WHITE);
+        canvas.write([left + bar_width + unit, y.saturating_sub(unit / 2)], text);
+    }
+    let title_width = legend.title.chars().count() as u32 * unit;
+    let title_left = left.min(width.saturating_sub(title_width + unit));
+    canvas.write([title_left, top.saturating_sub(2 * unit)], &legend.title);
 }
 
 /// Some three to six round numbers in a range, in the fewest digits that tell them apart.
@@ -159,7 +131,7 @@ mod tests {
     fn the_bar_has_its_colours_from_below_to_above() {
         let legend = Legend { title: "x".into(), range: [0.0, 1.0], colors: vec![[200, 0, 0], [0, 200, 0]] };
         let mut picture = Picture::Byte(RgbaImage::new(320, 240));
-        legend.draw(&mut picture, Encoding::Srgb);
+        draw_legend(&mut picture, &legend, Encoding::Srgb);
         let Picture::Byte(image) = picture else { panic!("bytes") };
         let column: Vec<u32> = (0..320).filter(|&x| image.get_pixel(x, 70).0 == [0, 200, 0, 255]).collect();
         assert_eq!(column.len(), 16);
@@ -167,7 +139,7 @@ mod tests {
         assert!(image.pixels().filter(|pixel| pixel.0 == [255; 4]).count() > 50, "words");
         // Without room there is none.
         let mut small = Picture::Byte(RgbaImage::new(159, 240));
-        legend.draw(&mut small, Encoding::Srgb);
+        draw_legend(&mut small, &legend, Encoding::Srgb);
         assert_eq!(small, Picture::Byte(RgbaImage::new(159, 240)));
     }
 }

@@ -1,7 +1,8 @@
 //! Pictures of frames, with what is laid over and behind them.
 
 use crate::background;
-use crate::legend::Legend;
+use crate::jitter;
+use crate::legend::draw_legend;
 use crate::lines;
 use crate::pending::{PendingPicture, check_frame, run_frame};
 use crate::picture::Picture;
@@ -12,7 +13,7 @@ use halfway_frame::error::RenderError;
 #[cfg(doc)]
 use halfway_frame::report::FrameReport;
 use halfway_frame::view::camera::View;
-use halfway_lighting::Load;
+use halfway_lighting::{Legend, Load};
 
 /// Runs one frame of `app` ([`App::update`]) and waits for its picture: systems run and time passes. [`take_picture`]
 /// draws the world as it is. Every problem of the frame is an error here: the first of [`FrameReport::errors`] is
@@ -22,12 +23,16 @@ use halfway_lighting::Load;
 /// The frame's first error, or why its picture could not be read back.
 pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
     app.update();
+    if jitter::side(app.world_mut()).is_some() {
+        return take_picture(app.world_mut());
+    }
     finished(app.world_mut())
 }
 
 /// Draws the world as it is now and waits for its picture. Only the schedule that draws runs: no `Startup`, no
 /// `Update`, and no time passes. That schedule is [`RenderPlugin::schedule`](crate::RenderPlugin::schedule),
 /// `PostUpdate` by default, so that transforms are propagated first; systems of the app's own that are in it run, too.
+/// Where the camera has 16 or 64 [`Samples`](halfway_lighting::Samples), it runs for each of them and once more.
 ///
 /// [`render_picture`] steps the app instead. A scene that is spawned in `Startup` is there after the first step.
 ///
@@ -60,6 +65,13 @@ pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
 /// The frame's first error, or why its picture could not be read back; [`RenderError::NoPicture`] in a world without
 /// a [`RenderPlugin`](crate::RenderPlugin).
 pub fn take_picture(world: &mut World) -> Result<Picture, RenderError> {
+    match jitter::side(world) {
+        Some(side) => jitter::averaged(world, side, frame_picture),
+        None => frame_picture(world),
+    }
+}
+
+fn frame_picture(world: &mut World) -> Result<Picture, RenderError> {
     run_frame(world)?;
     finished(world)
 }
@@ -83,7 +95,7 @@ fn finished(world: &mut World) -> Result<Picture, RenderError> {
     })?;
     let mut picture = whole.ok_or(RenderError::NoPicture)?;
     if let (Some(legend), Some(view)) = (world.get_resource::<Legend>(), world.get_resource::<View>()) {
-        legend.draw(&mut picture, view.camera.unwrap_or_default().encoding);
+        draw_legend(&mut picture, legend, view.camera.unwrap_or_default().encoding);
     }
     Ok(picture)
 }

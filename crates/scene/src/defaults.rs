@@ -77,8 +77,8 @@ pub fn default_lights() -> Vec<LightEntry> {
 /// use halfway_lighting::LightRig;
 /// use halfway_scene::{AttachEntry, SceneFile, rig_lights};
 ///
-/// let scene = SceneFile { lights: Some(rig_lights(LightRig::ThreePoint)), ..SceneFile::for_model("part.stl") };
-/// assert!(scene.lights.iter().flatten().all(|light| light.attach == AttachEntry::Camera));
+/// let scene = SceneFile { lights: Some(LightRig::ThreePoint.into()), ..SceneFile::for_model("part.stl") };
+/// assert!(rig_lights(LightRig::ThreePoint).iter().all(|light| light.attach == AttachEntry::Camera));
 /// ```
 pub fn rig_lights(rig: LightRig) -> Vec<LightEntry> {
     let entry = |(light, direction): (LightComponent, Vec3)| {

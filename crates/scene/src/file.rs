@@ -15,6 +15,7 @@ use crate::error::SceneError;
 use crate::json;
 use crate::keys::{Object, keys};
 use crate::light::{AttachEntry, LightEntry};
+use crate::lights_entry::LightsEntry;
 use crate::mesh::MeshEntry;
 use crate::named::{NameOrIndex, check_names};
 use crate::object::ObjectEntry;
@@ -42,8 +43,8 @@ keys! {
         output: Encoding = Encoding::default(),
         /// The policy for intensities above 1.
         intensity: Intensity = Intensity::default(),
-        /// Coverage samples a pixel: 1, or 4 for smooth edges.
-        samples: u32 = 1 => Limits::OneOf(&[1, 4], "expected 1 or 4"),
+        /// Samples a pixel: 1; 4 for smooth edges; 16 or 64, of which each is shaded.
+        samples: u32 = 1 => Limits::OneOf(&[1, 4, 16, 64], "expected 1, 4, 16 or 64"),
         /// Ga, the global ambient light, linear RGB. 0 to 1e12.
         ambient: [f32; 3] = GlobalAmbient::default().0.to_f32_array_no_alpha() => Limits::Numbers(Range::CHANNEL),
         /// Where the viewer is for the highlights.
@@ -63,9 +64,9 @@ keys! {
         /// Further cameras, of which one is drawn where it is asked for, by its name or its number. `camera` is number 0
         /// where there is one, and these follow.
         cameras: Vec<CameraEntry> = Vec::new(),
-        /// The lights; null or left out: those of the models, or a key light, a fill light and a headlight where the
-        /// models have none. An empty list: no lights.
-        lights: Option<Vec<LightEntry>> = None,
+        /// The lights: a list, or a rig that follows the camera. null or left out: those of the models, or a key light, a
+        /// fill light and a headlight where the models have none. An empty list: no lights.
+        lights: Option<LightsEntry> = None,
         /// The objects.
         objects: Vec<ObjectEntry> = Vec::new(),
         [not in the file]
@@ -80,11 +81,11 @@ impl Object for SceneFile {
     fn check_whole(&self) -> Check {
         let item = |list: &'static str| move |i: usize| format!("{list}[{i}]");
         let cameras = (0..).map(item("cameras")).zip(self.cameras.iter().map(|camera| camera.name.as_deref()));
-        let lights = (0..).map(item("lights")).zip(self.lights.iter().flatten().map(|light| light.name.as_deref()));
+        let lights = (0..).map(item("lights")).zip(self.light_list().iter().map(|light| light.name.as_deref()));
         let objects = (0..).map(item("objects")).zip(self.objects.iter().map(|object| object.name.as_deref()));
         let camera = self.camera.iter().map(|camera| ("camera".to_owned(), camera.name.as_deref()));
         check_names(camera.chain(cameras).chain(lights).chain(objects))?;
-        for (i, light) in self.lights.iter().flatten().enumerate() {
+        for (i, light) in self.light_list().iter().enumerate() {
             self.check_attach(&light.attach).within_item(i).within("lights")?;
         }
         Ok(())
@@ -92,6 +93,11 @@ impl Object for SceneFile {
 }
 
 impl SceneFile {
+    /// The lights that are listed.
+    fn light_list(&self) -> &[LightEntry] {
+        if let Some(LightsEntry::List(list)) = &self.lights { list } else { &[] }
+    }
+
     /// The version of the format that is read and written.
     pub const VERSION: u32 = 1;
     /// The largest width and height, in pixels.

@@ -5,17 +5,19 @@ use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use bevy_color::LinearRgba;
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
 use halfway_asset::Handle;
-use halfway_mesh::{Mesh, Model, NormalReport, Normals, SourceCamera, SourceMap, SourceMaterial};
+use halfway_mesh::{Mesh, Model, NormalReport, Normals, Property, SourceCamera, SourceMap, SourceMaterial};
 use halfway_texture::{FarNormals, MapKind, Pyramid, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
 use crate::mesh::{LoadedModel, MeshEntry};
 use crate::object::ObjectEntry;
-use halfway_lighting::{AlphaMode, Faces, LightComponent};
+use crate::scalars::{ColorMap, Scalars};
+use halfway_lighting::{AlphaMode, Faces, LightComponent, Material};
 
 /// The mesh of an object.
 pub(crate) struct ObjectShape {
@@ -32,8 +34,18 @@ pub(crate) struct ShapePart {
     pub(crate) object_from_part: Mat4,
     /// The model's own material.
     pub(crate) own: Option<ModelMaterial>,
-    /// The images of the model's own material that its mesh can show.
+    /// The images of the model's own material that its mesh can show; of numbers the image of their colours.
     pub(crate) maps: Vec<ModelMap>,
+    /// The numbers that it shows.
+    pub(crate) scalars: Option<ShownScalars>,
+}
+
+/// The colours of numbers.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct ShownScalars {
+    pub(crate) map: ColorMap,
+    /// The numbers at its ends; `None` where all are infinite or missing.
+    pub(crate) range: Option<[f32; 2]>,
 }
 
 /// An image of a model's material, decoded, and the map that it is for, still without its handle.
@@ -77,10 +89,16 @@ impl<'a> Shapes<'a> {
             }
             surface => Some(format!("{surface:?}")),
         };
-        let key = key.map(|key| format!("{key} {:?} {:?}", object.normals, object.displacement));
-        let shape = match key.as_ref().and_then(|key| self.loaded.get(key)) {
-            Some(shape) => Rc::clone(shape),
-            None => Rc::new(self.load(object, index)?),
+        // Their values are not compared, as those of meshes.
+        let key = key
+            .filter(|_| object.scalars.is_none())
+            .map(|key| format!("{key} {:?} {:?}", object.normals, object.displacement));
+        let shape = if let Some(shape) = key.as_ref().and_then(|key| self.loaded.get(key)) {
+            Rc::clone(shape)
+        } else {
+            let mut shape = self.load(object, index)?;
+            shape.parts.iter_mut().for_each(ShapePart::whiten_under_scalars);
+            Rc::new(shape)
         };
         if let Some(key) = key {
             self.loaded.insert(key, Rc::clone(&shape));
@@ -117,7 +135,8 @@ impl<'a> Shapes<'a> {
                 for part in shape.parts.iter_mut().filter(|part| part.own.is_none()) {
                     let is_open = object.faces.is_none() && part.mesh.is_open();
                     let faces = if is_open { Faces::Both } else { Faces::default() };
-                    part.own = Some(ModelMaterial { material: *material, faces, alpha: AlphaMode::default() });
+                    let alpha = AlphaMode::default();
+                    part.own = Some(ModelMaterial { material: *material, faces, shading: None, alpha });
                 }
                 return Ok(shape);
             }
@@ -137,10 +156,11 @@ impl<'a> Shapes<'a> {
         };
         let at = format!("objects[{index}]");
         let image = self.displacement(object, index);
+        let (mesh, scalars, maps) = painted(object, index, mesh, (&[], 0))?;
         let (mesh, report) = self.displaced(object, mesh, image.as_ref(), &at).with_normals(object.normals);
         self.warn_of_normals(&at, report);
-        let part =
-            ShapePart { name: String::new(), mesh, object_from_part: Mat4::IDENTITY, own: None, maps: Vec::new() };
+        let (name, object_from_part) = (String::new(), Mat4::IDENTITY);
+        let part = ShapePart { name, mesh, object_from_part, own: None, maps, scalars };
         Ok(ObjectShape { parts: vec![part], lights: Vec::new(), cameras: Vec::new() })
     }
 
@@ -188,16 +208,25 @@ impl<'a> Shapes<'a> {
             Ok(ShapeLight { name: light.name.clone(), light: component, object_from_light })
         });
         let lights = lights.collect::<Result<Vec<_>, SceneError>>()?;
+        // Numbers are those of the vertices of the file, which normals may split.
+        let properties = std::mem::take(&mut model.properties);
+        let mut scalars = Vec::with_capacity(model.parts.len());
+        for (number, part) in model.parts.iter_mut().enumerate() {
+            let (mesh, shown, colors) = painted(object, index, part.mesh.clone(), (&properties, number))?;
+            part.mesh = mesh;
+            scalars.push((shown, colors));
+        }
         if object.normals == Normals::Auto {
             model.make_auto_normals();
         }
         let mut parts = Vec::with_capacity(model.parts.len());
-        for part in model.parts {
+        for (part, (scalars, colors)) in model.parts.into_iter().zip(scalars) {
             let at = format!("{file}: part {:?}", part.name);
             let (mesh, report) = self.displaced(object, part.mesh, image.as_ref(), &at).with_normals(object.normals);
             self.warn_of_normals(&at, report);
             let own = part.material.and_then(|material| materials.get(material).copied());
             let maps = part.material.and_then(|material| maps.get(material)).cloned().unwrap_or_default();
+            let maps = if scalars.is_some() { colors } else { maps };
             let (shown, hidden): (Vec<_>, Vec<_>) =
                 maps.into_iter().partition(|image| mesh.uv_set(image.map.uv_set as usize).is_some());
             if !hidden.is_empty() {
@@ -205,7 +234,8 @@ impl<'a> Shapes<'a> {
                 let (name, maps) = (&part.name, names.join(", "));
                 self.warnings.push(format!("{file}: part {name:?} has no texture coordinates for its images: {maps}"));
             }
-            parts.push(ShapePart { name: part.name, mesh, object_from_part: part.world_from_part, own, maps: shown });
+            let object_from_part = part.world_from_part;
+            parts.push(ShapePart { name: part.name, mesh, object_from_part, own, maps: shown, scalars });
         }
         Ok(ObjectShape { parts, lights, cameras: model.cameras })
     }
@@ -293,6 +323,33 @@ impl<'a> Shapes<'a> {
             }
         }
     }
+}
+
+impl ShapePart {
+    /// Numbers are shown on white without highlights, unless the object has a material.
+    fn whiten_under_scalars(&mut self) {
+        if self.scalars.is_some() {
+            let (material, alpha) = (Material::matte(LinearRgba::WHITE), AlphaMode::Opaque);
+            let (faces, shading) = self.own.map_or_else(Default::default, |own| (own.faces, own.shading));
+            self.own = Some(ModelMaterial { material, faces, shading, alpha });
+        }
+    }
+}
+
+/// The mesh of a part in the colours of its numbers, if the object shows any, and the image of the colours.
+fn painted(
+    object: &ObjectEntry,
+    index: usize,
+    mesh: Mesh,
+    (properties, part): (&[Property], usize),
+) -> Result<(Mesh, Option<ShownScalars>, Vec<ModelMap>), SceneError> {
+    let Some(entry) = &object.scalars else { return Ok((mesh, None, Vec::new())) };
+    let wrong = |message| SceneError::Value { key: format!("objects[{index}].scalars"), message };
+    let Some(scalars) = entry.scalars(properties, part).map_err(wrong)? else { return Ok((mesh, None, Vec::new())) };
+    let (mesh, image) = scalars.on(&mesh).map_err(|error| wrong(error.to_string()))?;
+    let map = Scalars::surface_map(Handle::default());
+    let image = ModelMap { kind: MapKind::Color, texture: Texture::from(image), map };
+    Ok((mesh, Some(ShownScalars { map: scalars.map, range: scalars.shown_range() }), vec![image]))
 }
 
 fn mesh_path(index: usize) -> String {

@@ -3,13 +3,14 @@
 use halfway_lighting::{Faces, Range, Reflectance, Shading, Tolerance, VertexColors};
 use halfway_mesh::Normals;
 
-use crate::check::{Check, Limits};
+use crate::check::{Check, KeyProblem, Limits};
 use crate::displacement::DisplacementEntry;
 use crate::edges::EdgesEntry;
 use crate::keys::{Object, keys};
 use crate::maps::MapsEntry;
 use crate::material::MaterialEntry;
 use crate::mesh::MeshEntry;
+use crate::scalars_entry::ScalarsEntry;
 use crate::solid::SolidEntry;
 use crate::track::{Animate, TrackEntry};
 use crate::transform::TransformEntry;
@@ -47,6 +48,9 @@ keys! {
         maps: Option<MapsEntry> = None,
         /// The solid that the object is cut from, whose color multiplies ambient and diffuse light; null: nothing.
         solid: Option<SolidEntry> = None,
+        /// Numbers on the mesh, as colours: they multiply those of `material`, and take the place of the colors, the
+        /// material and the images of the model's own; null: none.
+        scalars: Option<ScalarsEntry> = None,
         /// Lines along the edges of the mesh; null: the scene's.
         edges: Option<EdgesEntry> = None,
         /// The numbers of the layers that it belongs to, each 0 to 31: a camera sees the objects and lights that share a
@@ -71,6 +75,11 @@ impl Object for ObjectEntry {
     const EXPECTED: &'static str = "an object with the keys of a scene's object";
 
     fn check_whole(&self) -> Check {
+        if self.scalars.is_some() && (self.maps.is_some() || self.displacement.is_some()) {
+            let other = if self.maps.is_some() { "maps" } else { "displacement" };
+            let message = format!("cannot stand beside `{other}`, which takes texture coordinates, too");
+            return Err(KeyProblem::new("scalars", message));
+        }
         self.transform.check_tracks(&self.animation)
     }
 }

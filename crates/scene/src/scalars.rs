@@ -1,18 +1,18 @@
 //! Numbers on a mesh, shown by a colour map.
 
 use bevy_color::LinearRgba;
-use bevy_math::{Vec2, Vec3};
+use bevy_math::Vec2;
 use halfway_asset::Handle;
 use halfway_lighting::{Choice, Choices};
-use halfway_mesh::{Mesh, MeshError};
+use halfway_mesh::{Mesh, MeshError, ScalarValues};
 use halfway_texture::{LevelFilter, MapKind, Maps, Sampling, SurfaceMap, TexelImage, Texture, TextureError, Wrap};
 use thiserror::Error;
 
 /// Numbers at the vertices or on the faces of a mesh, and how they become colours.
 ///
 /// Numbers are interpolated over triangles, and colours are looked up for each pixel, so that a pixel has the colour of
-/// its number however large the triangle is. The colours are an image on the surface: as its colour they are lit; as its
-/// emission they are shown as they are.
+/// its number however large the triangle is. The colours are an image on the surface, lit, or as they are
+/// where the object is unlit.
 ///
 /// ```
 /// use bevy_app::App;
@@ -49,15 +49,6 @@ pub struct Scalars {
     /// How many lines of equal numbers are drawn, evenly between the ends of the range, each as wide as a 125th of it.
     /// At most 100. Default 0.
     pub isolines: u32,
-}
-
-/// Numbers on a mesh.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ScalarValues {
-    /// One a vertex.
-    Vertices(Vec<f32>),
-    /// One a triangle.
-    Faces(Vec<f32>),
 }
 
 /// A perceptual colour map: equal differences of numbers look alike.
@@ -138,12 +129,15 @@ pub enum ScalarsError {
     Image(#[from] TextureError),
 }
 
-const MOST_LINES: u32 = 100;
+pub(crate) const MOST_LINES: u32 = 100;
 
 /// Texels along the map.
 const TEXELS: u32 = 1000;
 
 impl Scalars {
+    /// The default colour of missing numbers.
+    pub(crate) const MISSING: [f32; 3] = [0.6; 3];
+
     /// One number a vertex, from the least to the greatest by [`ColorMap::Viridis`].
     pub fn at_vertices(values: Vec<f32>) -> Self {
         Self::new(ScalarValues::Vertices(values))
@@ -155,20 +149,19 @@ impl Scalars {
     }
 
     fn new(values: ScalarValues) -> Self {
-        let missing = LinearRgba::rgb(0.6, 0.6, 0.6);
+        let [red, green, blue] = Self::MISSING;
+        let missing = LinearRgba::rgb(red, green, blue);
         Self { values, range: None, map: ColorMap::default(), missing, isolines: 0 }
     }
 
     /// The numbers that the map begins and ends with: `range`, or the least and the greatest of the finite values; `None`
     /// where no value is finite.
     pub fn shown_range(&self) -> Option<[f32; 2]> {
-        let (ScalarValues::Vertices(values) | ScalarValues::Faces(values)) = &self.values;
-        let finite = || values.iter().copied().filter(|value| value.is_finite());
-        self.range.or_else(|| Some([finite().reduce(f32::min)?, finite().reduce(f32::max)?]))
+        self.range.or_else(|| self.values.range())
     }
 
-    /// The mesh with texture coordinates by the numbers, and the image of the colours that belongs to them. Numbers on
-    /// faces give each triangle vertices of its own.
+    /// The mesh with texture coordinates by the numbers and without colours of its own, and the image of the colours that
+    /// belongs to them. Numbers on faces give each triangle vertices of its own.
     ///
     /// # Errors
     /// [`ScalarsError`] for a wrong number of values, a range whose ends are not finite or not in order, and more than
@@ -185,30 +178,31 @@ impl Scalars {
             found => Err(ScalarsError::Count { found, expected, of }),
         };
         let range = self.shown_range().unwrap_or([0.0, 1.0]);
-        let painted = match &self.values {
+        let coordinate = |&value: &f32| coordinate(value, range);
+        let (mesh, uvs) = match &self.values {
             ScalarValues::Vertices(values) => {
                 counted(values, mesh.positions().len(), "vertices")?;
-                let uvs = values.iter().map(|&value| coordinate(value, range)).collect();
-                let (positions, normals) = (mesh.positions().to_vec(), mesh.normals().to_vec());
-                Mesh::from_parts(positions, Some(normals), Some(uvs), mesh.indices().to_vec())?
+                (mesh.clone(), values.iter().map(coordinate).collect())
             }
             ScalarValues::Faces(values) => {
                 counted(values, mesh.triangle_count(), "faces")?;
-                let corners = || mesh.indices().iter().map(|&vertex| vertex as usize);
-                let of = |all: &[Vec3]| corners().map(|vertex| all[vertex]).collect::<Vec<_>>();
-                let uvs = values.iter().flat_map(|&value| [coordinate(value, range); 3]).collect();
-                let indices = (0..mesh.indices().len() as u32).collect();
-                Mesh::from_parts(of(mesh.positions()), Some(of(mesh.normals())), Some(uvs), indices)?
+                (mesh.unshared(), values.iter().flat_map(|value| [coordinate(value); 3]).collect())
             }
         };
+        let painted = mesh.with_uvs(uvs)?.without_colors();
         Ok((painted, self.image()?))
     }
 
-    /// The image, as the colour of a surface ([`MapKind::Color`]: white material, lit) or as its emission
-    /// ([`MapKind::Emission`] beside `Material::emissive(LinearRgba::WHITE)`: as it is, whatever the lights).
+    /// The image as the colour of a white surface ([`MapKind::Color`]), lit, or as it is under
+    /// [`Shading::Unlit`](halfway_lighting::Shading::Unlit); or as its emission ([`MapKind::Emission`] beside
+    /// `Material::emissive(LinearRgba::WHITE)`).
     pub fn maps(kind: MapKind, image: Handle<Texture>) -> Maps {
+        Maps::new(kind, Self::surface_map(image))
+    }
+
+    pub(crate) fn surface_map(image: Handle<Texture>) -> SurfaceMap {
         let sampling = Sampling { wrap: [Wrap::Clamp; 2], levels: LevelFilter::None, ..Sampling::default() };
-        Maps::new(kind, SurfaceMap { sampling, ..SurfaceMap::from(image) })
+        SurfaceMap { sampling, ..SurfaceMap::from(image) }
     }
 
     /// The map from the left to the right above, and the colour of missing numbers below.

@@ -10,7 +10,7 @@ use bevy_ecs::prelude::*;
 use bevy_math::{DAffine3, Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_asset::{Assets, Handle};
-use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, VertexColors, ViewTolerance};
+use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, Legend, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Projection, Samples};
 use halfway_mesh::{Bounds, Mesh, Mesh3d};
 use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
@@ -23,6 +23,7 @@ use crate::file::SceneFile;
 use crate::import::{camera_place, model_camera};
 use crate::light::{AttachEntry, LightEntry};
 use crate::light_place::place;
+use crate::lights_entry::LightsEntry;
 use crate::material::MaterialEntry;
 use crate::models::{ModelMap, ObjectShape, ShapePart, Shapes};
 use crate::named::NameOrIndex;
@@ -52,8 +53,8 @@ pub struct Spawned {
     pub is_animated: bool,
 }
 
-/// Puts a scene into a world: camera, objects, lights, and the [`GlobalAmbient`] resource; and [`ViewTolerance`],
-/// where the scene has one.
+/// Puts a scene into a world: camera, objects, lights, and the [`GlobalAmbient`] resource; and [`ViewTolerance`] and
+/// [`Legend`], where the scene has one.
 ///
 /// Paths in the scene are relative to `base_dir`, the folder of the scene file. The size of the picture is
 /// not put into the world: it belongs to the target.
@@ -103,7 +104,8 @@ fn spawn_seen(
     if !world.contains_resource::<Assets<Mesh>>() {
         return Err(SceneError::NoMeshAssets);
     }
-    if scene.objects.iter().any(|object| object.maps.is_some()) && !world.contains_resource::<Assets<Texture>>() {
+    let has_images = |object: &ObjectEntry| object.maps.is_some() || object.scalars.is_some();
+    if scene.objects.iter().any(has_images) && !world.contains_resource::<Assets<Texture>>() {
         return Err(SceneError::NoTextureAssets);
     }
     let mut shapes = Shapes::new(base_dir);
@@ -141,6 +143,11 @@ fn spawn_seen(
     hang_maps(scene, base_dir, &frames, &mut warnings, world);
     if let Some(environment) = &scene.environment {
         environment.spawn(base_dir, &mut warnings, world);
+    }
+    let legend =
+        seen.iter().find_map(|seen| if let SeenFrom::Entry(entry) = seen { entry.legend.as_deref() } else { None });
+    if let Some(title) = legend {
+        spawn_legend(title, &objects, &mut warnings, world);
     }
     let is_animated = [&cameras[..], &frames, &lights].concat().iter().any(|entity| is_animated(*entity, world));
     Ok(Spawned { camera, cameras, objects: frames, lights, warnings, is_animated })
@@ -235,7 +242,7 @@ fn spawn_camera(
         background_below: scene.background_below.map(LinearRgba::from_f32_array_no_alpha),
         background_opacity: scene.background_opacity,
         viewer: scene.viewer,
-        samples: if entry.samples.unwrap_or(scene.samples) == 4 { Samples::Four } else { Samples::One },
+        samples: Samples::from_count(entry.samples.unwrap_or(scene.samples)).unwrap_or_default(),
         encoding: scene.output,
         intensity: scene.intensity,
     };
@@ -401,7 +408,7 @@ fn dress_whole(
         .or_insert_with(|| world.resource_mut::<Assets<Mesh>>().add(part.mesh.clone()))
         .clone();
     dress(object, part, mesh, &mut world.entity_mut(entity));
-    if object.material.is_none() && object.maps.is_none() {
+    if part.scalars.is_some() || object.material.is_none() && object.maps.is_none() {
         hang_own_maps(part, textures, entity, world);
     }
 }
@@ -427,7 +434,7 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     let faces = object.faces.or(own.map(|own| own.faces)).unwrap_or_default();
     entity.insert((Mesh3d(mesh), material, faces));
     insert_some(entity, object.back_material.as_ref().and_then(MaterialEntry::material).map(BackMaterial));
-    insert_some(entity, object.shading);
+    insert_some(entity, object.shading.or(own.and_then(|own| own.shading)));
     insert_some(entity, object.tolerance);
     insert_some(entity, object.reflectance);
     // All parts are cut from one solid.
@@ -512,6 +519,21 @@ fn hang_maps(scene: &SceneFile, base_dir: &Path, frames: &[Entity], warnings: &m
     }
 }
 
+/// Inserts the legend of the first numbers that are shown.
+fn spawn_legend(title: &str, objects: &[Object], warnings: &mut Vec<String>, world: &mut World) {
+    let mut shown = objects.iter().flat_map(|(_, shape)| &shape.parts).filter_map(|part| part.scalars);
+    let first = shown.next();
+    let Some((first, range)) = first.and_then(|first| Some((first, first.range?))) else {
+        warnings.push("legend: there are no numbers to explain; expected `scalars` on an object".to_owned());
+        return;
+    };
+    if shown.any(|other| other != first) {
+        warnings
+            .push("legend: it is that of the first object with `scalars`; others have another map or range".to_owned());
+    }
+    world.insert_resource(Legend { title: title.to_owned(), range, colors: first.map.colors() });
+}
+
 /// The scene's lights, else the models', else the default ones.
 fn spawn_lights(
     scene: &SceneFile,
@@ -520,7 +542,7 @@ fn spawn_lights(
     frames: &[Entity],
     world: &mut World,
 ) -> Vec<Entity> {
-    let mut entries = Cow::Borrowed(scene.lights.as_deref().unwrap_or_default());
+    let mut entries = scene.lights.as_ref().map(LightsEntry::entries).unwrap_or_default();
     if scene.lights.is_none() {
         let own = spawn_own_lights(objects, frames, world);
         if !own.is_empty() {

@@ -5,8 +5,8 @@ use std::ops::Bound::{Excluded, Included, Unbounded};
 use bevy_math::{DMat3, DQuat, DVec3, Quat, Vec3};
 use bevy_transform::components::Transform;
 use halfway_lighting::{
-    Choices, Encoding, Faces, Film, Framing, Projection, Range, Reflectance, Shading, Tolerance, VertexColors, View,
-    Viewer,
+    Choices, Encoding, Faces, Film, Framing, Frequency, Projection, Range, Reflectance, Shading, Terms, Tolerance,
+    VertexColors, View, Viewer,
 };
 
 use crate::check::{Check, KeyProblem, Limits, direction, in_range};
@@ -30,6 +30,18 @@ words! {
         local = Self::Local,
         /// The direction to the viewer is the camera's axis everywhere: cheaper, right only from afar.
         infinite = Self::Infinite,
+    }
+
+    /// How often a term of the lights is evaluated.
+    Frequency {
+        /// Once a pixel, with the interpolated normal.
+        fragment = Self::Fragment,
+        /// At every vertex, interpolated.
+        vertex = Self::Vertex,
+        /// Once a triangle, with its own normal; both terms are, or neither.
+        triangle = Self::Triangle,
+        /// Not at all.
+        never = Self::Never,
     }
 
     /// `faces`: which sides of a surface are shown. Front faces wind counter-clockwise, also under a mirroring
@@ -66,7 +78,15 @@ impl Keys for Shading {
         Self::default()
     }
 
+    fn visit<V: Visit>(&self, visitor: &mut V) -> Result<(), V::Error> {
+        match self {
+            Self::Terms(terms) => visitor.key(&TERMS, Some(terms)),
+            _ => Ok(()),
+        }
+    }
+
     fn fill<F: Fill>(&mut self, from: &mut F) -> Result<(), F::Error> {
+        from.key(&TERMS, |terms| *self = Self::Terms(terms))?;
         let key = Key { name: AUTO, presence: Presence::Retired, limits: Limits::Any, meaning: "", whose: None };
         from.key(&key, |AutoShading { .. }| *self = Self::Phong)
     }
@@ -74,6 +94,31 @@ impl Keys for Shading {
 
 impl Object for Shading {
     const ONE_KEY: bool = true;
+    const EXAMPLES: &'static [&'static str] = &["{\"terms\": {\"diffuse\": \"vertex\", \"specular\": \"fragment\"}}"];
+
+    fn check_whole(&self) -> Check {
+        self.validate().map_err(|error| KeyProblem::new("terms", error.problem.to_string()))
+    }
+}
+
+const TERMS: Key = Key::required("terms", "Each term of the lights at a frequency of its own.");
+
+/// Two terms that are shaded alike.
+const PHONG: Terms = Terms::both(Frequency::Fragment);
+
+keys! {
+    /// The value of `{"terms": …}`.
+    impl Terms {
+        [optional]
+        /// The frequency of the diffuse term.
+        diffuse: Frequency = PHONG.diffuse,
+        /// The frequency of the specular term.
+        specular: Frequency = PHONG.specular,
+    }
+}
+
+impl Object for Terms {
+    const EXPECTED: &'static str = "an object such as {\"diffuse\": \"vertex\", \"specular\": \"fragment\"}";
 }
 
 /// A shading of older files, as a word or as `{"auto": {"tolerance": 1.0}}`; it is read as Phong shading.
@@ -206,8 +251,10 @@ keys! {
         tolerance: Option<Tolerance> = None,
         /// The reflectance of objects that name none; null: the scene's.
         reflectance: Option<Reflectance> = None,
-        /// Coverage samples a pixel, 1 or 4; null: the scene's.
-        samples: Option<u32> = None => Limits::OneOf(&[1, 4], "expected 1 or 4"),
+        /// Samples a pixel: 1, 4, 16 or 64; null: the scene's.
+        samples: Option<u32> = None => Limits::OneOf(&[1, 4, 16, 64], "expected 1, 4, 16 or 64"),
+        /// The title of a legend for the colours of `scalars`, at the right edge of the picture; null: no legend.
+        legend: Option<String> = None,
         /// The part of the picture that it draws, where several cameras share the picture; null: all of it.
         viewport: Option<ViewportEntry> = None,
         /// The numbers of the layers that it belongs to, each 0 to 31: a camera sees the objects and lights that share a

@@ -108,6 +108,11 @@ impl MapKind {
         }
     }
 
+    /// Whether it is a part of the base color, which an unlit object shows, or of the opacity.
+    pub fn is_of_base_color(self) -> bool {
+        matches!(self, Self::Color | Self::Opacity)
+    }
+
     /// Whether it perturbs normals instead of multiplying a property.
     pub fn perturbs_normals(self) -> bool {
         matches!(self, Self::Normal | Self::Height)

@@ -14,7 +14,7 @@ use halfway_render::ModelView;
 ///
 /// | key | effect |
 /// |---|---|
-/// | 1, 2, 3 | flat, Gouraud, Phong shading |
+/// | 1, 2, 3, 4 | flat, Gouraud, Phong shading; unlit |
 /// | T | cycles through tolerances: exact, ½, 1, 2, 4, 8 steps; the tolerance in pixels stays |
 /// | B | switches between Phong and Blinn–Phong reflectance |
 /// | I | cycles through tone mapping: clamp, renormalise, renormalise smoothly, Reinhard, ACES |
@@ -196,6 +196,7 @@ mod tests {
             (KeyCode::Digit1, "1", Shading::Flat),
             (KeyCode::Digit2, "2", Shading::Gouraud),
             (KeyCode::Numpad3, "3", Shading::Phong),
+            (KeyCode::Digit4, "4", Shading::Unlit),
         ];
         for before in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
             for (key_code, text, expected) in rows {

@@ -1,6 +1,7 @@
 //! The axes of the conformance suite, and the rows of all pairs of their values.
 
 use super::Row;
+use super::colors::off_ties;
 use crate::render::scene::{
     Lamp, Scene, Thing, directional_light, glowing, material, other_material, point_light, rotated, scaled,
 };
@@ -62,6 +63,10 @@ const AXES: [&[Value]; 10] = [
         value("phong shading", |setup| setup.object.shading = Some(Shading::Phong)),
         value("gouraud", |setup| setup.object.shading = Some(Shading::Gouraud)),
         value("flat", |setup| setup.object.shading = Some(Shading::Flat)),
+        value("unlit", |setup| {
+            setup.object.shading = Some(Shading::Unlit);
+            off_ties(&mut setup.object.material);
+        }),
         value("diffuse at vertices, specular at fragments", |setup| {
             let terms = Terms { diffuse: Frequency::Vertex, specular: Frequency::Fragment };
             setup.object.shading = Some(Shading::Terms(terms));

@@ -32,13 +32,27 @@ fn lit() -> Scene {
 pub(super) type Change = (&'static str, fn(&mut Scene));
 
 /// Shadings and mixtures of terms.
-pub(super) const SHADINGS: [Change; 5] = [
+pub(super) const SHADINGS: [Change; 6] = [
     ("flat", |scene| scene.view_shading = Some(Shading::Flat)),
     ("gouraud", |scene| scene.view_shading = Some(Shading::Gouraud)),
     ("phong", |scene| scene.view_shading = Some(Shading::Phong)),
+    ("unlit", unlit),
     ("diffuse at vertices", |scene| terms(scene, Frequency::Vertex, Frequency::Fragment)),
     ("specular at vertices", |scene| terms(scene, Frequency::Fragment, Frequency::Vertex)),
 ];
+
+fn unlit(scene: &mut Scene) {
+    scene.view_shading = Some(Shading::Unlit);
+    for thing in &mut scene.things {
+        [Some(&mut thing.material), thing.back.as_mut()].into_iter().flatten().for_each(off_ties);
+    }
+}
+
+/// 0.1, 0.3 and 0.7 of 255 lie in the middle between two bytes, and an unlit object shows them as they are.
+pub(super) fn off_ties(material: &mut Material) {
+    let LinearRgba { red, green, blue, .. } = material.diffuse;
+    material.diffuse = LinearRgba::rgb(0.97 * red, 0.97 * green, 0.97 * blue);
+}
 
 fn terms(scene: &mut Scene, diffuse: Frequency, specular: Frequency) {
     scene.things.iter_mut().for_each(|thing| thing.shading = Some(Shading::Terms(Terms { diffuse, specular })));

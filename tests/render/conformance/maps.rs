@@ -279,7 +279,7 @@ pub(super) fn rows_of_far_normals(far_normals: FarNormals) -> Vec<Row> {
     let mut rows: Vec<Row> = SHADINGS
         .into_iter()
         // Elsewhere normals of images do nothing.
-        .filter(|(shading, _)| !["flat", "gouraud"].contains(shading))
+        .filter(|(shading, _)| !["flat", "gouraud", "unlit"].contains(shading))
         .map(|(shading, shade)| {
             let mut scene = far(4.0, 0.5);
             shade(&mut scene);

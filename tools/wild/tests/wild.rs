@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use halfway::render::{Adapter, AdapterChoice};
-use halfway::scene::{MaterialEntry, SceneFile};
+use halfway::scene::{LightsEntry, MaterialEntry, SceneFile};
 use halfway_wild::{Fault, Finding, Judge, scene, written};
 use serde_json::Value;
 
@@ -172,7 +172,9 @@ fn known_failures_fail() {
 }
 
 fn without_last_light(scene: &mut SceneFile) {
-    scene.lights.as_mut().map(Vec::pop);
+    if let Some(LightsEntry::List(lights)) = &mut scene.lights {
+        lights.pop();
+    }
 }
 
 fn with_broader_highlights(scene: &mut SceneFile) {

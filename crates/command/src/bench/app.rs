@@ -44,7 +44,7 @@ impl Timed {
             Self::Read(input) => {
                 let camera = input.spawn(&mut app)?.camera;
                 // The camera turns, so that no two frames are the same.
-                Turntable::turn(&mut app, camera, 1.0_f32.to_radians());
+                Turntable::turn(&mut app, camera, Vec3::Y, 1.0_f32.to_radians());
                 shade(app.world_mut(), look);
             }
         }

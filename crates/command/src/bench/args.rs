@@ -99,11 +99,11 @@ pub(crate) enum BenchShading {
 
 impl BenchShading {
     /// A constant colour first, exact Phong shading last.
-    pub(super) const ALL: [Self; Shading::CHOICES.len() + 2] = {
-        let mut all = [Self::Constant; Shading::CHOICES.len() + 2];
+    pub(super) const ALL: [Self; Shading::LIT.len() + 2] = {
+        let mut all = [Self::Constant; Shading::LIT.len() + 2];
         let mut i = 0;
-        while i < Shading::CHOICES.len() {
-            all[1 + i] = Self::Shaded(Shading::CHOICES[i].value);
+        while i < Shading::LIT.len() {
+            all[1 + i] = Self::Shaded(Shading::LIT[i]);
             i += 1;
         }
         all[1 + i] = Self::ExactPhong;

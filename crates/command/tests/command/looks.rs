@@ -262,3 +262,78 @@ fn thumbnails_are_small_pngs_within_limits() {
         assert!(!folder.join("no.png").exists());
     }
 }
+
+#[test]
+fn properties_are_listed_and_shown() {
+    let folder = folder("scalars");
+    let rod = asset("assets/warm_rod.ply");
+    let said = succeeds(&folder, &["info", &rod]);
+    assert!(said.contains("property   \"temperature\" of vertices: from 20"), "{said}");
+    assert!(said.contains("property   \"load\" of faces: from "), "{said}");
+    // Unlit, the lower end of the rod has the colour of the upper end of the map.
+    let looks = ["--scalars", "temperature", "--shading", "unlit", "--samples", "1"];
+    let drawn = draw(&folder, &[&rod], &looks);
+    let yellow = drawn.pixels().filter(|pixel| pixel.0[0] > 240 && pixel.0[1] > 220 && pixel.0[2] < 80).count();
+    assert!(yellow > 10, "{yellow} pixels are yellow");
+    let other = draw(&folder, &[&rod], &[&looks[..], &["--map", "magma", "--range", "-5..1000"]].concat());
+    assert!(other.pixels().all(|pixel| pixel.0[0] < 120), "all is at the dark end");
+    let load = draw(&folder, &[&rod], &["--scalars", "load"]);
+    assert_ne!(load, drawn);
+    for (options, expected) in [
+        (vec!["--scalars", "pressure"], "no property \"pressure\"; it has \"temperature\", \"load\""),
+        (vec!["--scalars", "load", "--range", "2..1"], "the lower first"),
+        (vec!["--map", "magma"], "--scalars"),
+    ] {
+        let refused = halfway(&folder, &[&["render", &rod, "-o", "no.png"], &options[..]].concat());
+        let error = String::from_utf8_lossy(&refused.stderr);
+        assert!(refused.status.code() == Some(2) && error.contains(expected), "{options:?}: {error}");
+    }
+}
+
+#[test]
+fn many_samples_are_those_of_the_reference() {
+    let folder = folder("samples");
+    let teapot = asset("assets/teapot.obj");
+    let args = ["render", &teapot, "--size", "96x64", "--samples", "16", "-o"];
+    succeeds(&folder, &[&args[..], &["frames.png"]].concat());
+    succeeds(&folder, &[&args[..], &["oracle.png", "--reference"]].concat());
+    let [frames, oracle] = ["frames.png", "oracle.png"].map(|name| picture(&folder, name));
+    let far = frames.pixels().zip(oracle.pixels()).filter(|(a, b)| (0..3).any(|c| a.0[c].abs_diff(b.0[c]) > 2)).count();
+    assert!(far < 96 * 64 / 50, "{far} pixels differ");
+    let refused = halfway(&folder, &[&args[..], &["no.png", "--intensity", "aces"]].concat());
+    let error = String::from_utf8_lossy(&refused.stderr);
+    assert!(refused.status.code() == Some(2) && error.contains("expected 1 or 4 beside this intensity"), "{error}");
+}
+
+#[test]
+fn convert_reads_and_writes_pipes() {
+    let folder = folder("convert_pipes");
+    step(&folder);
+    succeeds(&folder, &["convert", "step.obj", "expected.glb"]);
+    let expected = fs::read(folder.join("expected.glb")).expect("it was written");
+    let obj = fs::read(folder.join("step.obj")).expect("it is there");
+    for arguments in [
+        &["convert", "-", "-", "--format", "obj,glb"][..],
+        &["convert", "step.obj", "-", "--format", "glb"],
+        &["convert", "step.obj", "-", "--format", "obj,glb", "--normals", "keep"],
+    ] {
+        let output = piped(&folder, &obj, arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        // A part of the name of its file.
+        assert_eq!(&output.stdout[..4], b"glTF", "{arguments:?}");
+        assert!(output.stdout.len().abs_diff(expected.len()) < 32, "{arguments:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains("standard output: 1 parts"), "{arguments:?}");
+    }
+    let output = piped(&folder, &obj, &["convert", "-", "from_pipe.glb", "--format", "obj"]);
+    assert!(output.status.success() && folder.join("from_pipe.glb").exists());
+    for (arguments, expected) in [
+        (&["convert", "-", "no.glb"][..], "standard input: the format is not known"),
+        (&["convert", "step.obj", "-"], "standard output: the format is not known; expected --format smf, obj or glb"),
+        (&["convert", "step.obj", "-", "--format", "stl"], "names no format that is written"),
+        (&["convert", "step.obj", "no.glb", "--format", "png"], "no picture is written"),
+    ] {
+        let output = piped(&folder, &obj, arguments);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && error.contains(expected), "{arguments:?}: {error}");
+    }
+}

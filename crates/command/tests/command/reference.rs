@@ -193,3 +193,24 @@ fn comparisons_are_printed_and_drawn() {
         assert!((worst - expected).abs() < 1e-4, "{worst}");
     }
 }
+
+#[test]
+fn the_reference_has_quantities_too() {
+    let folder = folder("reference_quantities");
+    let cube = asset("assets/cube.smf");
+    let common = ["render", &cube, "--size", "48x32", "-o"];
+    succeeds(
+        &folder,
+        &[&common[..], &["a.png", "--adapter", "cpu", "--also", "id=a_id.png,eye-normal=a_n.png"]].concat(),
+    );
+    succeeds(&folder, &[&common[..], &["b.png", "--reference", "--also", "id=b_id.png,eye-normal=b_n.png"]].concat());
+    for (of_adapter, of_reference) in [("a_id.png", "b_id.png"), ("a_n.png", "b_n.png")] {
+        let [a, b] = [of_adapter, of_reference].map(|name| image::open(folder.join(name)).expect("it was written"));
+        let [a, b] = [a, b].map(image::DynamicImage::into_rgb8);
+        let apart = a.pixels().zip(b.pixels()).filter(|(a, b)| a != b).count();
+        assert!(apart <= 4, "{of_reference}: {apart} pixels differ");
+    }
+    let refused = halfway(&folder, &[&common[..], &["c.png", "--reference", "--also", "albedo=c_a.png"]].concat());
+    let error = String::from_utf8_lossy(&refused.stderr);
+    assert!(refused.status.code() == Some(2) && error.contains("albedo: is an average over the samples"), "{error}");
+}

@@ -10,7 +10,9 @@ use bevy_math::Vec3;
 use halfway_lighting::equations::{Coefficients, Eye, specular_exponent};
 use halfway_lighting::record::Cull;
 use halfway_lighting::record::{MaterialRecord, SurfaceRecord};
-use halfway_lighting::{Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Terms};
+use halfway_lighting::{
+    Encoding, Faces, Fields, Frequency, InvalidValue, Material, Problem, Reflectance, Shading, Terms,
+};
 use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
 
 /// The components that say how an object reflects light.
@@ -18,6 +20,7 @@ use halfway_texture::{MapKind, Maps, SolidKind, SolidTexture, WrongMap};
 pub(crate) struct Reflecting<'a> {
     pub(crate) front: &'a Material,
     pub(crate) back: &'a Material,
+    pub(crate) shading: Shading,
     pub(crate) reflectance: Reflectance,
     pub(crate) faces: Faces,
     /// The mesh has colors that count.
@@ -33,7 +36,7 @@ pub(crate) struct Reflecting<'a> {
 }
 
 /// The same as a key: the materials' bits, and the rest.
-pub(crate) type ReflectingBits = ([MaterialBits; 2], Reflectance, Faces, bool);
+pub(crate) type ReflectingBits = ([MaterialBits; 2], Reflectance, Faces, [bool; 2]);
 type MaterialBits = [u32; size_of::<Material>() / 4];
 
 /// Everything that follows from the appearance, whatever the object's place and shading.
@@ -73,8 +76,13 @@ impl Reflecting<'_> {
             [self.front, self.back].map(|material| bytemuck::cast(*material)),
             self.reflectance,
             self.faces,
-            self.is_painted(),
+            [self.is_painted(), self.is_lit()],
         )
+    }
+
+    /// Whether light has part in it; else it shows its base color.
+    fn is_lit(&self) -> bool {
+        self.shading != Shading::Unlit
     }
 
     /// Whether what multiplies ambient and diffuse light is not in the material alone.
@@ -108,7 +116,8 @@ impl Reflecting<'_> {
     }
 
     fn coefficients(&self) -> [Coefficients<f32>; 2] {
-        self.sides().map(Coefficients::from)
+        let of_side = |side| if self.is_lit() { Coefficients::from(side) } else { Coefficients::from(side).unlit() };
+        self.sides().map(of_side)
     }
 
     fn exponents(&self) -> [f32; 2] {
@@ -125,10 +134,9 @@ impl Reflecting<'_> {
     /// Seen only from behind, the back is what the shader lights as front; see
     /// [`InstanceRecord::new`](halfway_lighting::record::InstanceRecord::new).
     fn record(&self, ambient: Vec3) -> SurfaceRecord {
-        let [front, back] = self.sides().map(|side| {
-            let (coefficients, painted) = (Coefficients::from(side), self.is_painted());
-            MaterialRecord::new(&coefficients, self.reflectance, ambient, painted)
-        });
+        let ambient = if self.is_lit() { ambient } else { Vec3::ONE };
+        let [front, back] =
+            self.coefficients().map(|side| MaterialRecord::new(&side, self.reflectance, ambient, self.is_painted()));
         SurfaceRecord { front, back, ..SurfaceRecord::default() }
     }
 

@@ -5,7 +5,7 @@ use crate::batch::object::{Reflecting, wrong_paint};
 use crate::batch::table::MapsUse;
 use crate::geometry::meshes::{Form, Geometries, Geometry, Paint, PaintComponents};
 use crate::lights::surroundings::Surroundings;
-use crate::lights::terms::shown_terms;
+use crate::lights::terms::shown_shading;
 use crate::view::camera::View;
 use crate::view::matrices::{ModelView, NormalMatrix, Visible};
 use bevy_ecs::prelude::*;
@@ -64,7 +64,8 @@ impl ShownObjects<'_, '_> {
     fn get(&self, entity: Entity, lights_images: bool) -> Option<ShownObject<'_>> {
         let (mesh, material, back, reflectance, faces, components, tolerance, placed, shading, name) =
             self.objects.get(entity).ok()?;
-        let of_mesh = |mesh| Paint::new(mesh, components, self.surroundings.are_there());
+        let shading = shown_shading(shading, &self.view);
+        let of_mesh = |mesh| Paint::new(mesh, components, shading, self.surroundings.are_there());
         let mut paint = self.meshes.get(&mesh.0).map_or(Paint::default(), of_mesh);
         let has_images = paint.has_images() || paint.solid.is_some();
         let lacks_environment = paint.surrounded && has_images && !lights_images;
@@ -73,6 +74,7 @@ impl ShownObjects<'_, '_> {
         let reflecting = Reflecting {
             front: material,
             back: back.map_or(material, |back| &back.0),
+            shading,
             reflectance: reflectance.copied().unwrap_or(self.view.reflectance),
             faces: faces.copied().unwrap_or_default(),
             colored: paint.colored,
@@ -89,7 +91,7 @@ impl ShownObjects<'_, '_> {
             paint,
             wrong_paint: wrong_paint(components),
             lacks_environment,
-            terms: shown_terms(shading, &self.view),
+            terms: shading.into(),
             tolerance: tolerance.copied().unwrap_or(self.view.tolerance),
             model_view: placed.0,
             normal_matrix: placed.1,

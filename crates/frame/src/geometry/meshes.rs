@@ -3,7 +3,7 @@
 use crate::geometry::patches::{MeshTriangles, Patches, Prepared};
 use crate::geometry::workshop::Workshop;
 use crate::lights::surroundings::Surroundings;
-use crate::lights::terms::{by_vertex_shader, shown_terms};
+use crate::lights::terms::{by_vertex_shader, shown_shading};
 use crate::report::FrameReport;
 use crate::values::WaitsForLevels;
 use crate::view::camera::View;
@@ -93,14 +93,24 @@ pub(crate) type PaintOf<'a> =
     (Option<&'a VertexColors>, Option<&'a Maps>, Option<&'a AlphaMode>, Option<&'a SolidTexture>);
 
 impl<'a> Paint<'a> {
-    pub(crate) fn new(mesh: &Mesh, (colors, maps, alpha, solid): PaintOf<'a>, surrounded: bool) -> Self {
+    /// Of what an unlit object has, that which makes its base color or its opacity.
+    pub(crate) fn new(
+        mesh: &Mesh,
+        (colors, maps, alpha, solid): PaintOf<'a>,
+        shading: Shading,
+        surrounded: bool,
+    ) -> Self {
+        let lit = shading != Shading::Unlit;
         let colored = mesh.colors().is_some() && colors != Some(&VertexColors::Ignore);
         let has_uvs = [0, 1].map(|set| mesh.uv_set(set).is_some());
-        let maps = maps.map_or_else(Default::default, |maps| maps.shown(has_uvs));
+        let mut maps = maps.map_or_else(Default::default, |maps| maps.shown(has_uvs));
+        for kind in MapKind::ALL.into_iter().filter(|kind| !lit && !kind.is_of_base_color()) {
+            maps[kind as usize] = None;
+        }
         let alpha = alpha.copied().unwrap_or_default();
         // No opacity is below 0.
         let mask = alpha.cutoff().filter(|cutoff| *cutoff > 0.0);
-        Self { colored, maps, mask, blend: alpha.blends(), solid, surrounded }
+        Self { colored, maps, mask, blend: alpha.blends(), solid, surrounded: surrounded && lit }
     }
 
     /// Whether there are images, a mask, a solid or an environment.
@@ -232,8 +242,9 @@ pub(crate) fn lay_out(
     let mut last = None;
     for (Mesh3d(handle), shading, paint, tolerance) in objects.iter_many(&visible.0).flatten() {
         let Some(mesh) = meshes.get(handle) else { continue };
-        let paint = Paint::new(mesh, paint, surroundings.are_there());
-        let terms = shown_terms(shading, &view);
+        let shading = shown_shading(shading, &view);
+        let paint = Paint::new(mesh, paint, shading, surroundings.are_there());
+        let terms = Terms::from(shading);
         let wanted = (handle.id(), Form::new(terms, &paint));
         let pixels = tolerance.unwrap_or(&view.tolerance).pixels;
         let has_levels = pixels > 0.0 && shades_pixels_alone(terms) && wanted.1.may_have_levels();

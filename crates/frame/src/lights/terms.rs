@@ -7,9 +7,9 @@ use crate::view::matrices::Visible;
 use bevy_ecs::prelude::*;
 use halfway_lighting::{Frequency, Shading, Terms};
 
-/// Where the terms of an object are shaded: as it says itself, else as the view says.
-pub(crate) fn shown_terms(own: Option<&Shading>, view: &View) -> Terms {
-    own.copied().unwrap_or(view.shading).into()
+/// How an object is shaded: as it says itself, else as the view says.
+pub(crate) fn shown_shading(own: Option<&Shading>, view: &View) -> Shading {
+    own.copied().unwrap_or(view.shading)
 }
 
 /// Whether the diffuse and the specular term are evaluated by the vertex shader: at each vertex, or at the one vertex
@@ -32,7 +32,7 @@ pub(crate) fn check(
 ) {
     visible.0.retain(|&entity| {
         let Ok((shading, name)) = objects.get(entity) else { return false };
-        let checked = shading.unwrap_or(&view.shading).validate();
+        let checked = shown_shading(shading, &view).validate();
         if let Err(source) = checked {
             report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
             return false;

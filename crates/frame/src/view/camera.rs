@@ -124,7 +124,7 @@ pub(crate) fn update(
     let lens: Lens = camera.projection.lens(size.to_array());
     let pixels = size.as_vec2().to_array();
     *view = View {
-        camera: Some(*camera),
+        camera: Some(Camera { samples: camera.samples.of_a_frame(), ..*camera }),
         entity: Some(entity),
         eye_from_world,
         lens,

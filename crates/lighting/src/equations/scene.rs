@@ -68,6 +68,13 @@ impl<T: Real> Coefficients<T> {
         }
     }
 
+    /// Those of the same surface under [`Shading::Unlit`](crate::Shading::Unlit): under an ambient light of 1 its color is
+    /// kd, whatever else shines.
+    #[must_use]
+    pub fn unlit(self) -> Self {
+        Self { ka: self.kd, opacity: self.opacity, ..Self::black() }
+    }
+
     /// The same where the surface has this color: ka and kd times it, each channel by itself.
     #[must_use]
     pub fn tinted(self, color: [T; 3]) -> Self {

@@ -41,6 +41,7 @@ fn check_triangle(model: &Model) {
             roughness: 0.5,
             emissive: [0.0; 3],
             double_sided: false,
+            unlit: false,
             alpha: AlphaMode::Opaque,
             maps: GltfMaps::default(),
         })]
@@ -201,7 +202,7 @@ fn integer_texture_coordinates_strides_and_sparse_values() {
 #[test]
 fn materials_keep_their_factors() {
     let old = "{\"name\":\"red\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0,0,1],\"metallicFactor\":0.25,\"roughnessFactor\":0.5}}";
-    let new = "{},{\"name\":\"leaf\",\"alphaMode\":\"MASK\",\"doubleSided\":true,\"emissiveFactor\":[0,0.5,0]},{\"alphaMode\":\"MASK\",\"alphaCutoff\":0.25},{\"alphaMode\":\"BLEND\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.1,0.2,0.3,0.4]}}";
+    let new = "{},{\"name\":\"leaf\",\"alphaMode\":\"MASK\",\"doubleSided\":true,\"emissiveFactor\":[0,0.5,0]},{\"alphaMode\":\"MASK\",\"alphaCutoff\":0.25},{\"alphaMode\":\"BLEND\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.1,0.2,0.3,0.4]}},{\"extensions\":{\"KHR_materials_unlit\":{}}}";
     let model = load_glb(&with(&[(old, new)]), &triangle_data()).unwrap();
     let default = MetallicRoughness {
         name: String::new(),
@@ -210,6 +211,7 @@ fn materials_keep_their_factors() {
         roughness: 1.0,
         emissive: [0.0; 3],
         double_sided: false,
+        unlit: false,
         alpha: AlphaMode::Opaque,
         maps: GltfMaps::default(),
     };
@@ -223,7 +225,8 @@ fn materials_keep_their_factors() {
             ..default.clone()
         },
         MetallicRoughness { alpha: AlphaMode::Mask { cutoff: 0.25 }, ..default.clone() },
-        MetallicRoughness { alpha: AlphaMode::Blend, base_color: [0.1, 0.2, 0.3, 0.4], ..default },
+        MetallicRoughness { alpha: AlphaMode::Blend, base_color: [0.1, 0.2, 0.3, 0.4], ..default.clone() },
+        MetallicRoughness { unlit: true, ..default },
     ];
     assert_eq!(model.materials, expected.map(SourceMaterial::MetallicRoughness));
 }
@@ -271,7 +274,7 @@ fn skipped_contents_give_warnings() {
     let json = with(&[
         (
             "{\"version\":\"2.0\"}",
-            "{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_unlit\",\"KHR_texture_basisu\"],\"cameras\":[{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,\"ymag\":1,\"zfar\":10,\"znear\":0}}]",
+            "{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_clearcoat\",\"KHR_texture_basisu\"],\"cameras\":[{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,\"ymag\":1,\"zfar\":10,\"znear\":0}}]",
         ),
         ("\"scenes\":[{\"nodes\":[0]}]", "\"scenes\":[{\"nodes\":[0]},{\"nodes\":[]}]"),
         // Attributes of the application's own pass.
@@ -280,7 +283,7 @@ fn skipped_contents_give_warnings() {
     assert_eq!(
         load_glb(&json, &triangle_data()).unwrap().warnings,
         [
-            "the extension KHR_materials_unlit is skipped",
+            "the extension KHR_materials_clearcoat is skipped",
             "the extension KHR_texture_basisu is skipped",
             "only the default scene of 2 is read",
             "the morph targets of 1 primitives are skipped",

@@ -98,6 +98,7 @@ fn scene() -> Model {
             roughness: 0.3,
             emissive: [0.0, 0.25, 0.1],
             double_sided: true,
+            unlit: true,
             alpha: AlphaMode::Mask { cutoff: 0.3 },
             maps: GltfMaps::default(),
         }),

@@ -74,7 +74,7 @@ impl EdgeFunctions {
             edges.center[k] = edge >> 8;
             match samples {
                 Samples::One => edges.at[k][0] = edges.center[k],
-                Samples::Four => {
+                _ => {
                     for (at, [dx, dy]) in edges.at[k].iter_mut().zip(GRID_PLACES) {
                         *at = (edge + across * dx + down * dy) >> 8;
                     }

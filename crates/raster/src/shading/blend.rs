@@ -32,7 +32,7 @@ impl TileBuffer {
                 let i = done.min(TILE as i32 - lanes::<S>() as i32);
                 let shown = match look.pass.samples {
                     Samples::One => self.shown_in_one(simd, edges, planes, [i, j]),
-                    Samples::Four => self.shown_in_four(simd, edges, planes, [i, j]),
+                    _ => self.shown_in_four(simd, edges, planes, [i, j]),
                 };
                 let column = counting(simd) + splat(simd, i as f32);
                 let new = column.simd_ge(splat(simd, done as f32));

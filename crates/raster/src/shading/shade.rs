@@ -155,7 +155,7 @@ impl TileBuffer {
                     let color = self.shade_one_apart(simd, look, at, behind(simd, look, at, clear));
                     self.put(simd, (0, at), color, look);
                 }
-                Samples::Four => self.shade_four(simd, look, at, behind(simd, look, at, clear)),
+                _ => self.shade_four(simd, look, at, behind(simd, look, at, clear)),
             }
         }
     }
@@ -338,7 +338,7 @@ impl TileBuffer {
     pub(crate) fn resolved<S: Simd>(&self, simd: S, at: usize, samples: Samples) -> V3<S> {
         match samples {
             Samples::One => load3(simd, &self.lead[0], at),
-            Samples::Four => {
+            Samples::Four | Samples::Sixteen | Samples::SixtyFour => {
                 // Quarters first: the sum of the four largest numbers would overflow.
                 let [a, b, c, d] = each!(sample in 4 => {
                     scale::<S>(load3(simd, &self.lead[sample], at), splat(simd, 0.25))

@@ -397,7 +397,7 @@ fn cover_tiny<S: Simd>(
 ) {
     match count {
         Samples::One => nearest.cover_tiny(simd, (centers, first), slopes, range, shader, keeps_lead),
-        Samples::Four => {
+        _ => {
             nearest.cover_tiny_four(simd, (centers, samples, first), slopes, range, shader, keeps_lead);
         }
     }
@@ -437,7 +437,7 @@ fn draw<S: Simd>(
     match look.pass.samples {
         _ if work.blend => nearest.blend(simd, edges, planes, shader, look),
         Samples::One => nearest.cover_strips(simd, edges, planes, shader, kept),
-        Samples::Four => nearest.cover_four(simd, edges, planes, shader, kept),
+        _ => nearest.cover_four(simd, edges, planes, shader, kept),
     }
 }
 

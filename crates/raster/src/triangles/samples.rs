@@ -15,7 +15,7 @@ pub(crate) const OFFSETS: [[f32; 4]; 2] = [[-0.125, 0.375, -0.375, 0.125], [-0.3
 pub(crate) fn sample_offsets(samples: Samples) -> [[i32; 2]; 4] {
     match samples {
         Samples::One => [[0; 2]; 4],
-        Samples::Four => GRID_PLACES,
+        _ => GRID_PLACES,
     }
 }
 

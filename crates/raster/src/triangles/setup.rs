@@ -104,7 +104,7 @@ impl Covering {
     pub(crate) fn reach(&self) -> i32 {
         match self.samples {
             Samples::One => 0,
-            Samples::Four => 6 * GRID / 16,
+            _ => 6 * GRID / 16,
         }
     }
 }

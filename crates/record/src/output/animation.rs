@@ -8,7 +8,7 @@ use halfway_lighting::Encoding;
 use halfway_render::Picture;
 
 use super::OutputError;
-use super::encode::to_bytes;
+use super::encode::{to_bytes, to_bytes_with_alpha};
 use super::format::ending;
 use super::partial::Partial;
 use super::picture::{is_opaque, not_empty, png_encoder};
@@ -36,7 +36,8 @@ impl Default for FrameDelay {
     }
 }
 
-/// Writes an animated PNG of 8 bits a channel, frame by frame. Viewers that do not animate show the first frame.
+/// Writes an animated PNG of 8 bits a channel, frame by frame. Viewers that do not animate show the first frame. Where the
+/// first frame is not opaque, the animation has a fourth channel.
 ///
 /// The file appears when [`finish`](Self::finish) is called; a writer that is dropped before leaves no file.
 ///
@@ -58,12 +59,18 @@ impl Default for FrameDelay {
 /// ```
 pub struct AnimationWriter {
     // Dropped first, so that the file is closed before it is removed.
-    writer: png::Writer<BufWriter<File>>,
+    writer: Writer,
     partial: Partial,
     size: (u32, u32),
     encoding: Encoding,
     written: u32,
     frames: u32,
+}
+
+/// The first frame decides about the channels, which stand at the beginning of the file.
+enum Writer {
+    Waiting(Option<Box<png::Encoder<'static, BufWriter<File>>>>),
+    Begun { writer: png::Writer<BufWriter<File>>, has_alpha: bool },
 }
 
 impl AnimationWriter {
@@ -85,12 +92,11 @@ impl AnimationWriter {
         }
         let (partial, file_writer) = Partial::create(file)?;
         let mut encoder = png_encoder(file_writer, size.0, size.1, png::BitDepth::Eight, encoding);
-        let writer = encoder
+        encoder
             .set_animated(frames, 0)
             .and_then(|()| encoder.set_frame_delay(delay.numerator, delay.denominator))
-            .and_then(|()| encoder.write_header())
             .map_err(|error| OutputError::png(file, error))?;
-        Ok(Self { writer, partial, size, encoding, written: 0, frames })
+        Ok(Self { writer: Writer::Waiting(Some(Box::new(encoder))), partial, size, encoding, written: 0, frames })
     }
 
     /// Checks that a file of this name can hold an animation.
@@ -107,8 +113,8 @@ impl AnimationWriter {
     /// Adds the next frame. A picture in floating point is clamped and encoded.
     ///
     /// # Errors
-    /// The frame has another size than the animation, there are more frames than announced, it is not opaque, or it
-    /// cannot be written.
+    /// The frame has another size than the animation, there are more frames than announced, it is not opaque where the
+    /// first one was, or it cannot be written.
     pub fn frame(&mut self, picture: &Picture) -> Result<(), OutputError> {
         let (found_width, found_height) = picture.dimensions();
         let (width, height) = self.size;
@@ -121,13 +127,28 @@ impl AnimationWriter {
             let (file, found) = (file.to_owned(), self.frames.saturating_add(1));
             return Err(OutputError::FrameCount { file, found, expected: self.frames });
         }
-        if !is_opaque(picture) {
-            let expected = "an opaque background, or a file for each frame, by a {} in the name";
-            return Err(OutputError::NotOpaque { file: file.to_owned(), format: "an animated PNG", expected });
+        let is_opaque = is_opaque(picture);
+        if let Writer::Waiting(encoder) = &mut self.writer
+            && let Some(mut encoder) = encoder.take()
+        {
+            if !is_opaque {
+                encoder.set_color(png::ColorType::Rgba);
+            }
+            let writer = encoder.write_header().map_err(|error| OutputError::png(file, error))?;
+            self.writer = Writer::Begun { writer, has_alpha: !is_opaque };
         }
-        self.writer
-            .write_image_data(to_bytes(picture, self.encoding).as_raw())
-            .map_err(|error| OutputError::png(file, error))?;
+        // Its beginning could not be written, which was said then.
+        let Writer::Begun { writer, has_alpha } = &mut self.writer else { return Ok(()) };
+        let written = if *has_alpha {
+            writer.write_image_data(to_bytes_with_alpha(picture, self.encoding).as_raw())
+        } else if is_opaque {
+            writer.write_image_data(to_bytes(picture, self.encoding).as_raw())
+        } else {
+            let (format, expected) =
+                ("an animated PNG whose first frame is opaque", "opaque frames, or a first one that is not");
+            return Err(OutputError::NotOpaque { file: file.to_owned(), format, expected });
+        };
+        written.map_err(|error| OutputError::png(file, error))?;
         self.written += 1;
         Ok(())
     }
@@ -142,7 +163,9 @@ impl AnimationWriter {
             let file = partial.file().to_owned();
             return Err(OutputError::FrameCount { file, found: written, expected: frames });
         }
-        writer.finish().map_err(|error| OutputError::png(partial.file(), error))?;
+        if let Writer::Begun { writer, .. } = writer {
+            writer.finish().map_err(|error| OutputError::png(partial.file(), error))?;
+        }
         partial.keep()
     }
 }

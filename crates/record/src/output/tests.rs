@@ -413,6 +413,20 @@ fn a_picture_that_is_not_opaque_has_four_channels() {
 }
 
 #[test]
+fn an_animation_keeps_its_opacity() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("clear.png");
+    let mut animation =
+        AnimationWriter::create(&file, (4, 3), 2, FrameDelay::per_second(10), Encoding::Srgb).expect("a file");
+    let frames = [0, 255].map(|alpha| RgbaImage::from_pixel(4, 3, Rgba([10, 20, 30, alpha])));
+    for frame in &frames {
+        animation.frame(&Picture::Byte(frame.clone())).expect("a frame");
+    }
+    animation.finish().expect("a file");
+    assert_eq!(image::open(&file).expect("a picture").as_rgba8(), Some(&frames[0]));
+}
+
+#[test]
 fn what_has_no_opacity_refuses_a_picture_that_is_not_opaque() {
     let folder = tempfile::tempdir().expect("a folder");
     let clear = Picture::Byte(RgbaImage::from_pixel(4, 3, Rgba([10, 20, 30, 0])));
@@ -421,9 +435,11 @@ fn what_has_no_opacity_refuses_a_picture_that_is_not_opaque() {
     assert!(error.contains("clear.jpg") && error.contains(".png, .webp or .exr"), "{error}");
     let file = folder.path().join("clear.png");
     let mut animation =
-        AnimationWriter::create(&file, (4, 3), 1, FrameDelay::per_second(10), Encoding::Srgb).expect("a file");
+        AnimationWriter::create(&file, (4, 3), 2, FrameDelay::per_second(10), Encoding::Srgb).expect("a file");
+    let opaque = Picture::Byte(RgbaImage::from_pixel(4, 3, Rgba([10, 20, 30, 255])));
+    animation.frame(&opaque).expect("the first frame");
     let error = animation.frame(&clear).expect_err("refused").to_string();
-    assert!(error.contains("an animated PNG has no opacity"), "{error}");
+    assert!(error.contains("an animated PNG whose first frame is opaque has no opacity"), "{error}");
     // On a sheet it lies over the paper.
     let mut sheet = ContactSheet::new(1, 4, Encoding::Srgb);
     sheet.push(&clear);

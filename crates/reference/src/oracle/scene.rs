@@ -13,7 +13,7 @@ use halfway_lighting::{
     light_position, light_up, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
-use halfway_texture::{Maps, Pyramid, SolidTexture, SurfaceMap, Texture};
+use halfway_texture::{MapKind, Maps, Pyramid, SolidTexture, SurfaceMap, Texture};
 
 use super::environment::OracleEnvironment;
 use super::error::{ALWAYS, OracleError, label};
@@ -241,13 +241,18 @@ fn solid(
         faces: faces.copied().unwrap_or_default(),
         blend: alpha.blends(),
         terms: shading.into(),
+        lit: shading != Shading::Unlit,
         maps: maps.map_or_else(Default::default, |maps| {
             let appearance = |map: &SurfaceMap| {
                 let there = textures.and_then(|textures| textures.get(&map.texture));
                 let pyramid = there.map_or_else(Pyramid::missing, |texture| texture.0.clone());
                 MapSource { pyramid, map: map.clone() }
             };
-            maps.shown([0, 1].map(|set| mesh.uv_set(set).is_some())).map(|map| map.map(appearance))
+            let mut shown = maps.shown([0, 1].map(|set| mesh.uv_set(set).is_some()));
+            if shading == Shading::Unlit {
+                MapKind::ALL.into_iter().filter(|kind| !kind.is_of_base_color()).for_each(|k| shown[k as usize] = None);
+            }
+            shown.map(|map| map.map(appearance))
         }),
         mask: alpha.cutoff().map(f64::from),
         cut_from: cut_from.copied(),

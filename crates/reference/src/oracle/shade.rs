@@ -21,7 +21,8 @@ impl OracleScene {
         let solid = &self.solids[hit.solid];
         let side = solid.side(hit.front);
         let material = side.coefficients.tinted(solid.color(hit.on_triangle()).truncate().to_array());
-        let unlit = TermSums { ambient: mul(material.ka, self.ambient), ..TermSums::default() };
+        let around = if solid.lit { self.ambient } else { [1.0; 3] };
+        let unlit = TermSums { ambient: mul(material.ka, around), ..TermSums::default() };
         let lit = match hit.place {
             HitPoint::Triangle(triangle, weights) => self.on_triangle(solid, hit, &material, triangle, weights),
             HitPoint::Surface { p, n } => {

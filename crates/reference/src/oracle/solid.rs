@@ -26,6 +26,8 @@ pub(super) struct Appearance {
     pub(super) faces: Faces,
     pub(super) blend: bool,
     pub(super) terms: Terms,
+    /// Whether light has part in it; else it shows its base colour.
+    pub(super) lit: bool,
     /// Whether vertex colours are used.
     pub(super) colored: bool,
     /// The images that its mesh shows.
@@ -89,6 +91,8 @@ pub(super) struct Solid {
     pub(super) blend: bool,
     /// The frequencies of the lights' terms.
     pub(super) terms: Terms,
+    /// Whether light has part in it; else its ambient reflectance is its base colour.
+    pub(super) lit: bool,
     given: Terms,
     /// The surface that is drawn in place of the triangles.
     pub(super) smooth: Option<Smooth>,
@@ -126,7 +130,7 @@ impl Solid {
             (false, false) => 0,
         };
         let side = |material: &Material, shown: bool| Side {
-            coefficients: Coefficients::from(material),
+            coefficients: if appearance.lit { material.into() } else { Coefficients::from(material).unlit() },
             shown,
             shaded: if shown { (0..evaluations).map(|_| OnceLock::new()).collect() } else { Vec::new() },
         };
@@ -150,6 +154,7 @@ impl Solid {
             reflectance: appearance.reflectance,
             blend: appearance.blend,
             terms,
+            lit: appearance.lit,
             given: terms,
             smooth: None,
             mesh,

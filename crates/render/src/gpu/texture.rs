@@ -188,7 +188,7 @@ impl TextureTarget {
         } else if depth.sample_count() != samples.count() {
             Some(match samples {
                 Samples::One => "its depth has several samples a pixel, and the camera one; expected `Samples::Four`",
-                Samples::Four => "its depth has one sample a pixel, and the camera four; expected `Samples::One`",
+                _ => "its depth has one sample a pixel, and the camera four; expected `Samples::One`",
             })
         } else if !depth.usage().contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
             Some("its depth lacks the usage RENDER_ATTACHMENT")

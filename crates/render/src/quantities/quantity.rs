@@ -193,8 +193,8 @@ pub fn take_quantities(world: &mut World, quantities: &[Quantity]) -> Result<Vec
 }
 
 impl QuantityImage {
-    /// Background alone.
-    fn empty(quantity: Quantity, size: UVec2) -> Self {
+    /// A picture of background alone.
+    pub fn empty(quantity: Quantity, size: UVec2) -> Self {
         let count = quantity.channels().len() * size.element_product() as usize;
         let values = if quantity.is_number() {
             QuantityValues::Numbers(vec![0; count])
@@ -204,16 +204,23 @@ impl QuantityImage {
         Self { quantity, size, values }
     }
 
-    /// Puts the picture of a camera into that of all.
-    fn put(&mut self, corner: UVec2, part: &Self) {
-        fn copy<T: Copy>(whole: &mut [T], from: &[T], [start, stride, length]: [usize; 3]) {
+    /// Puts another picture of the same quantity over this one, with its upper left corner here, as far as it lies within.
+    pub fn put(&mut self, corner: UVec2, part: &Self) {
+        fn copy<T: Copy>(whole: &mut [T], from: &[T], [start, stride, length, taken]: [usize; 4]) {
             for (row, from) in from.chunks_exact(length).enumerate() {
-                whole[start + row * stride..][..length].copy_from_slice(from);
+                if let Some(to) = whole.get_mut(start + row * stride..).and_then(|to| to.get_mut(..taken)) {
+                    to.copy_from_slice(&from[..taken]);
+                }
             }
         }
+        if corner.cmpge(self.size).any() || part.size.x == 0 {
+            return;
+        }
+        let taken = part.size.x.min(self.size.x - corner.x);
+        let start = corner.y as usize * self.size.x as usize + corner.x as usize;
         let channels = self.quantity.channels().len();
-        let start = (corner.y * self.size.x + corner.x) as usize;
-        let rows = [start, self.size.x as usize, part.size.x as usize].map(|pixels| channels * pixels);
+        let [stride, length, taken] = [self.size.x, part.size.x, taken].map(|pixels| channels * pixels as usize);
+        let rows = [channels * start, stride, length, taken];
         match (&mut self.values, &part.values) {
             (QuantityValues::Floats(whole), QuantityValues::Floats(part)) => copy(whole, part, rows),
             (QuantityValues::Numbers(whole), QuantityValues::Numbers(part)) => copy(whole, part, rows),
@@ -237,7 +244,7 @@ fn image(world: &mut World, quantity: Quantity, surfaces: &mut Option<Surfaces>)
                 Some(surfaces) => surfaces,
                 none => none.insert(Surfaces::take(world)?),
             };
-            Ok(of_surfaces(quantity, surfaces))
+            Ok(QuantityImage::of_surfaces(quantity, surfaces))
         }
     }
 }
@@ -248,20 +255,23 @@ fn of_picture(quantity: Quantity, drawn: &Rgba32FImage, push: impl Fn([f32; 4], 
     QuantityImage { quantity, size: drawn.dimensions().into(), values: QuantityValues::Floats(values) }
 }
 
-fn of_surfaces(quantity: Quantity, surfaces: &Surfaces) -> QuantityImage {
-    let values = if quantity.is_number() {
-        let number = |point: Option<SurfacePoint>| point.and_then(|point| quantity.number(&point)).unwrap_or(0);
-        QuantityValues::Numbers(surfaces.iter().map(number).collect())
-    } else {
-        let channels = quantity.channels().len();
-        let mut values = Vec::with_capacity(channels * surfaces.size().element_product() as usize);
-        for point in surfaces.iter() {
-            match point {
-                Some(point) => quantity.at(surfaces, &point, &mut values),
-                None => values.extend(std::iter::repeat_n(0.0, channels)),
+impl QuantityImage {
+    /// A quantity of surfaces, whichever drawer found them. Albedo and coverage, which are averages over samples, are 0.
+    pub fn of_surfaces(quantity: Quantity, surfaces: &Surfaces) -> Self {
+        let values = if quantity.is_number() {
+            let number = |point: Option<SurfacePoint>| point.and_then(|point| quantity.number(&point)).unwrap_or(0);
+            QuantityValues::Numbers(surfaces.iter().map(number).collect())
+        } else {
+            let channels = quantity.channels().len();
+            let mut values = Vec::with_capacity(channels * surfaces.size().element_product() as usize);
+            for point in surfaces.iter() {
+                match point {
+                    Some(point) => quantity.at(surfaces, &point, &mut values),
+                    None => values.extend(std::iter::repeat_n(0.0, channels)),
+                }
             }
-        }
-        QuantityValues::Floats(values)
-    };
-    QuantityImage { quantity, size: surfaces.size(), values }
+            QuantityValues::Floats(values)
+        };
+        Self { quantity, size: surfaces.size(), values }
+    }
 }

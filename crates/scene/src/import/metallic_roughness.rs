@@ -30,6 +30,8 @@ pub const SHININESS_MAX: f32 = 10_000.0;
 /// surface gives back of it about what it gives back in all: a dielectric its diffuse color, a metal its reflectance,
 /// both of which are c.
 ///
+/// Of an unlit one (`KHR_materials_unlit`), which shows its base color as it is, the diffuse color is c.
+///
 /// Left out: the Fresnel rise toward grazing angles, the masking term, and reflections of the surroundings. A metal
 /// therefore is darker than in a path tracer: it shows only highlights and ambient light.
 ///
@@ -39,7 +41,7 @@ pub fn from_metallic_roughness(source: &MetallicRoughness) -> Result<Material, I
     check(source)?;
     let [red, green, blue, alpha] = source.base_color;
     let base = [red, green, blue];
-    let metallic = source.metallic;
+    let metallic = if source.unlit { 0.0 } else { source.metallic };
     let shininess = shininess_from_roughness(source.roughness);
     let f0 = base.map(|c| DIELECTRIC_REFLECTANCE + (c - DIELECTRIC_REFLECTANCE) * metallic);
     let largest = f0[0].max(f0[1]).max(f0[2]);

@@ -1,6 +1,6 @@
 //! The material of a model, whichever format it came in.
 
-use halfway_lighting::{AlphaMode, Faces, InvalidValue, Material};
+use halfway_lighting::{AlphaMode, Faces, InvalidValue, Material, Shading};
 use halfway_mesh::{AlphaMode as SourceAlpha, MetallicRoughness, MtlMaterial, SourceMaterial};
 
 use super::metallic_roughness::from_metallic_roughness;
@@ -13,6 +13,8 @@ pub struct ModelMaterial {
     pub material: Material,
     /// Both where the file says double-sided, else the front.
     pub faces: Faces,
+    /// [`Shading::Unlit`] where the file says `KHR_materials_unlit`; else none of its own.
+    pub shading: Option<Shading>,
     /// The effect of its opacity: glTF's `alphaMode` and `alphaCutoff`. An MTL file cannot ask for blending, so the
     /// caller has to; with a `map_d` the surface is cut out at 0.5, since such images mostly cut something out, else it
     /// is opaque.
@@ -35,7 +37,7 @@ impl ModelMaterial {
         let (material, warnings) = from_mtl(mtl)?;
         let warnings = warnings.iter().map(ToString::to_string).collect();
         let cutoff = mtl.maps.d.as_ref().map(|_| AlphaMode::CUTOFF);
-        Ok((Self { material, faces: Faces::Front, alpha: AlphaMode::new(cutoff, false) }, warnings))
+        Ok((Self { material, faces: Faces::Front, shading: None, alpha: AlphaMode::new(cutoff, false) }, warnings))
     }
 
     fn from_gltf(gltf: &MetallicRoughness) -> Result<Self, InvalidValue> {
@@ -43,6 +45,7 @@ impl ModelMaterial {
         Ok(Self {
             material,
             faces: if gltf.double_sided { Faces::Both } else { Faces::Front },
+            shading: gltf.unlit.then_some(Shading::Unlit),
             alpha: match gltf.alpha {
                 SourceAlpha::Opaque => AlphaMode::Opaque,
                 SourceAlpha::Mask { cutoff } => AlphaMode::Mask(cutoff),

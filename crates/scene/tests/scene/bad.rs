@@ -68,7 +68,7 @@ fn a_scene_made_in_code_is_checked_before_it_is_written() {
     let mut scene = SceneFile::default();
     let mut light = LightEntry::white(LightKind::Point);
     light.light.diffuse.green = f32::NAN;
-    scene.lights = Some(vec![LightEntry::white(LightKind::Spot), light]);
+    scene.lights = Some(vec![LightEntry::white(LightKind::Spot), light].into());
     let error = scene.to_json().unwrap_err();
     assert!(matches!(error, SceneError::Value { .. }));
     assert_eq!(error.key(), Some("lights[1].diffuse[1]"));

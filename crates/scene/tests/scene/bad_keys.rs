@@ -60,16 +60,20 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"shading": "smooth"}"#,
         (1, 13),
-        "`shading`: unknown value `smooth`, expected \"flat\", \"gouraud\" or \"phong\"",
+        "`shading`: unknown value `smooth`, expected \"flat\", \"gouraud\", \"phong\", \"unlit\" or {\"terms\": ",
     ),
     (r#"{"output": 3}"#, (1, 12), "`output`: is a value of the wrong type: integer `3`, expected \"srgb\" or \"raw\""),
     (r#"{"output": {"srgb": null}}"#, (1, 12), "`output`: is a value of the wrong type: object, expected \"srgb\""),
     (
         r#"{"shading": {"flat": null}}"#,
         (1, 14),
-        "`shading.flat`: unknown key `flat`, expected \"flat\", \"gouraud\" or ",
+        "`shading.flat`: unknown key `flat`, expected \"flat\", \"gouraud\", \"phong\", \"unlit\" or ",
     ),
-    (r#"{"shading": "Auto"}"#, (1, 13), "`shading`: unknown value `Auto`, expected \"flat\", \"gouraud\" or "),
+    (
+        r#"{"shading": "Auto"}"#,
+        (1, 13),
+        "`shading`: unknown value `Auto`, expected \"flat\", \"gouraud\", \"phong\", \"unlit\" or ",
+    ),
     (
         r#"{"tolerance": 1}"#,
         (1, 15),
@@ -85,12 +89,27 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
     (
         r#"{"shading": 1}"#,
         (1, 13),
-        "`shading`: is a value of the wrong type: integer `1`, expected \"flat\", \"gouraud\" or ",
+        "`shading`: is a value of the wrong type: integer `1`, expected \"flat\", \"gouraud\", \"phong\", \"unlit\" or ",
     ),
     (
         r#"{"shading": {"auto": {}, "phong": 1}}"#,
         (1, 26),
         "`shading.phong`: unknown key `phong`, expected one key only: ",
+    ),
+    (
+        r#"{"shading": {"terms": {"diffuse": "pixel"}}}"#,
+        (1, 35),
+        "`shading.terms.diffuse`: unknown value `pixel`, expected \"fragment\", \"vertex\", \"triangle\" or \"never\"",
+    ),
+    (
+        r#"{"shading": {"terms": {"diffuse": "triangle", "specular": "vertex"}}}"#,
+        (1, 23),
+        "`shading.terms`: the term is evaluated once a triangle and the other at Vertex",
+    ),
+    (
+        r#"{"lights": "sun"}"#,
+        (1, 12),
+        "`lights`: unknown value `sun`, expected a list or one of \"studio\", \"three_point\"",
     ),
     (r#"{"shading": {"auto": {"tol": 1}}}"#, (1, 23), "`shading.auto.tol`: unknown key `tol`, expected `tolerance`"),
     (
@@ -108,7 +127,11 @@ pub(super) const NOT_THE_FORMAT: &[Bad] = &[
         (3, 9),
         "`camera.position[1]`: is a value of the wrong type: string \"0\", expected a number",
     ),
-    (r#"{"lights": {}}"#, (1, 12), "`lights`: is a value of the wrong type: object, expected a list"),
+    (
+        r#"{"lights": {}}"#,
+        (1, 12),
+        "`lights`: is a value of the wrong type: object, expected a list or one of \"studio\"",
+    ),
     (
         r#"{"lights": [["point"]]}"#,
         (1, 13),

@@ -10,7 +10,7 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     (r#"{"size": [1280, 16385]}"#, (1, 17), "`size[1]`: is 16385; expected 1 to 16384"),
     (r#"{"background": [0, -0.5, 0]}"#, (1, 20), "`background[1]`: is -0.5; expected a number from 0 to 1e12"),
     (r#"{"ambient": [0, 0, 1e39]}"#, (1, 20), "`ambient[2]`: is inf; expected a number from 0 to 1e12"),
-    (r#"{"samples": 2}"#, (1, 13), "`samples`: is 2; expected 1 or 4"),
+    (r#"{"samples": 2}"#, (1, 13), "`samples`: is 2; expected 1, 4, 16 or 64"),
     (
         r#"{"intensity": {"reinhard": {"white": 0.5}}}"#,
         (1, 38),

@@ -138,7 +138,7 @@ fn any_number_survives_being_written() {
         }
         let mut scene = SceneFile::for_model("a.obj");
         let light = LightEntry { position: [number, -number, 1.0, 1.0], ..LightEntry::white(LightKind::Point) };
-        scene.lights = Some(vec![light]);
+        scene.lights = Some(vec![light].into());
         assert_eq!(parse(&scene.to_json().unwrap()), scene, "{number:?}");
     }
 }
@@ -169,7 +169,7 @@ fn rotations_near_unit_length_become_unit() {
 #[test]
 fn kinds_of_light_and_frames() {
     let scene = parse(UNUSUAL);
-    let lights = scene.lights.as_deref().unwrap();
+    let lights = scene.lights.as_ref().unwrap().entries();
     assert_eq!(lights[0].attach, AttachEntry::Object("a \"b\" [c, d]".into()));
     assert_eq!(lights[1].attach, AttachEntry::Camera);
     assert_eq!((lights[1].kind, lights[1].position), (LightKind::Homogeneous, [1.0, 2.0, 3.0, -4.0]));

@@ -29,6 +29,7 @@ fn bare() -> MetallicRoughness {
         roughness: 1.0,
         emissive: [0.0; 3],
         double_sided: false,
+        unlit: false,
         alpha: AlphaMode::Opaque,
         maps: GltfMaps::default(),
     }

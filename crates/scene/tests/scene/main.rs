@@ -18,6 +18,7 @@ mod maps;
 mod model_root;
 mod past_failures;
 mod retired;
+mod scalars;
 mod solid;
 mod spawned;
 mod surfaces;

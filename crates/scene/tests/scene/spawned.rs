@@ -10,8 +10,8 @@ use bevy_transform::TransformPlugin;
 use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_asset::Assets;
 use halfway_lighting::{
-    AlphaMode, BackMaterial, Cone, DirectionalLight, Faces, GlobalAmbient, Material, PointLight, Reflectance, Shading,
-    SpotLight, Viewer, light_direction,
+    AlphaMode, BackMaterial, Cone, DirectionalLight, Faces, Frequency, GlobalAmbient, LightRig, Material, PointLight,
+    Reflectance, Shading, SpotLight, Terms, Viewer, light_direction,
 };
 use halfway_lighting::{Camera, Encoding, Intensity, Projection, Samples};
 use halfway_mesh::{Mesh, Mesh3d, MeshPlugin};
@@ -377,4 +377,20 @@ fn loaded_models_show_both_sides_of_open_surfaces() {
         let mesh = app.world().resource::<Assets<Mesh>>().get(&mesh.0).unwrap();
         assert_eq!(mesh.positions().len(), corners, "a tetrahedron is creased");
     }
+}
+
+#[test]
+fn rigs_follow_the_camera_and_terms_are_shaded_apart() {
+    let text = r#"{"lights": "three_point", "shading": {"terms": {"diffuse": "vertex"}}, "objects": [
+        {"mesh": {"box": {}}, "shading": {"terms": {"diffuse": "never", "specular": "triangle"}}},
+        {"mesh": {"box": {}}, "shading": "unlit"}]}"#;
+    let (app, scene) = spawned(text);
+    assert_eq!(scene.lights.len(), LightRig::ThreePoint.lights().len());
+    assert!(scene.lights.iter().all(|&l| get::<ChildOf>(&app, l).is_some_and(|c| c.parent() == scene.camera)));
+    let terms = |diffuse, specular| Some(Shading::Terms(Terms { diffuse, specular }));
+    assert_eq!(get(&app, scene.camera), terms(Frequency::Vertex, Frequency::Fragment));
+    assert_eq!(get(&app, scene.objects[0]), terms(Frequency::Never, Frequency::Triangle));
+    assert_eq!(get(&app, scene.objects[1]), Some(Shading::Unlit));
+    let scene = SceneFile::from_json(text, "test").unwrap();
+    assert_eq!(SceneFile::from_json(&scene.to_json().unwrap(), "test").unwrap(), scene);
 }

@@ -22,6 +22,7 @@ pub(super) fn materials(document: &Document, images: &mut Images) -> Result<Vec<
                 roughness: pbr.roughness_factor(),
                 emissive: material.emissive_factor(),
                 double_sided: material.double_sided(),
+                unlit: material.unlit(),
                 alpha: match material.alpha_mode() {
                     GltfAlphaMode::Opaque => AlphaMode::Opaque,
                     GltfAlphaMode::Mask => AlphaMode::Mask { cutoff: material.alpha_cutoff().unwrap_or(0.5) },

@@ -58,7 +58,7 @@ fn read(bytes: &[u8], is_binary: bool, around: ModelFolder) -> Result<Model, Fau
         warnings.push(format!("{first} is taken for 0, 0, 0, 1{more}"));
     }
     warnings.extend(primitives.into_warnings());
-    Ok(Model { parts, materials, lights, cameras, warnings })
+    Ok(Model { parts, materials, lights, cameras, warnings, ..Model::default() })
 }
 
 fn open_container(bytes: &[u8]) -> Result<Glb<'_>, Fault> {

@@ -5,16 +5,16 @@ mod values;
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
-use self::header::{Element, Property};
+use self::header::{Element, Property as PropertyType};
 use self::values::{ElementProperty, Values};
 use super::source::{Source, stem};
 use super::srgb::decoded;
 use super::text::abridged;
 use super::{LoadError, polygon};
-use crate::{Mesh, Model, Part};
+use crate::{Mesh, Model, Part, Property, ScalarValues};
 
-/// Reads `vertex` (positions, normals, colours, texture coordinates), `face` and `tristrips`; all else is skipped with
-/// a warning.
+/// Reads `vertex` (positions, normals, colours, texture coordinates), `face` and `tristrips`; other numbers of vertices and
+/// faces become properties, and all else is skipped with a warning.
 pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let Source { path, mut reader, .. } = source;
     let header = header::parse(&mut reader)?;
@@ -32,7 +32,8 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
             }
         }
     }
-    let PlyContent { positions, normals, uvs, colors, indices, mut warnings, crossed, small, .. } = shape;
+    let PlyContent { positions, normals, uvs, colors, indices, mut warnings, crossed, small, mut properties, .. } =
+        shape;
     for (count, what) in [
         (crossed, "polygons that cross themselves, or have too many corners, are cut somehow"),
         (small, "faces of fewer than three corners are skipped"),
@@ -52,8 +53,15 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     if let Some(colors) = colors {
         mesh = mesh.with_colors(colors).map_err(refused)?;
     }
+    // Triangles of strips have no numbers.
+    let triangles = mesh.triangle_count();
+    let is_whole = |values: &ScalarValues| !matches!(values, ScalarValues::Faces(faces) if faces.len() != triangles);
+    for property in properties.extract_if(.., |property| !is_whole(&property.values)) {
+        warnings.push(format!("of `face` is skipped: {}, which strips have not", abridged(&property.name, "")));
+    }
+    let properties = properties.into();
     let part = Part { name: stem(path), mesh, material: None, world_from_part: Mat4::IDENTITY };
-    Ok(Model { parts: vec![part], warnings, ..Model::default() })
+    Ok(Model { parts: vec![part], warnings, properties, ..Model::default() })
 }
 
 /// The vertex properties that are read, in the order of a vertex's slots.
@@ -87,18 +95,23 @@ struct PlyContent {
     points: Vec<Vec3>,
     crossed: usize,
     small: usize,
+    properties: Vec<Property>,
     warnings: Vec<String>,
 }
 
+/// The numbers of one property of each vertex or triangle; `None` for those that mean something else.
+type Numbers = Vec<Option<Vec<f32>>>;
+
 impl PlyContent {
     fn vertices(&mut self, element: &Element, values: &mut Values) -> Result<(), LoadError> {
-        let slot_of = |property: &Property| {
+        let slot_of = |property: &PropertyType| {
             let named = |names: &&[&str]| names.contains(&property.name.as_str());
             SLOTS.iter().position(named).filter(|_| property.list.is_none())
         };
         let slots: Vec<Option<usize>> = element.properties.iter().map(slot_of).collect();
         let has = |wanted: std::ops::Range<usize>| wanted.into_iter().all(|slot| slots.contains(&Some(slot)));
-        self.warn_of_skipped(element, |i| slots[i].is_some());
+        let mut numbers = numbers(element, |i| slots[i].is_none());
+        self.warn_of_skipped(element, |i| slots[i].is_some() || numbers[i].is_some());
         if !has(0..3) {
             let place = ElementProperty { element: "vertex", number: 0, property: "x, y and z" };
             return Err(values.error(place, "no such properties", "three numbers are"));
@@ -109,10 +122,13 @@ impl PlyContent {
         for number in 0..element.count {
             let mut vertex = [0.0; 12];
             vertex[11] = 1.0;
-            for (property, slot) in element.properties.iter().zip(&slots) {
+            for ((property, slot), numbers) in element.properties.iter().zip(&slots).zip(&mut numbers) {
                 let place = ElementProperty { element: &element.name, number, property: &property.name };
                 let Some(slot) = *slot else {
-                    skip(property, place, values)?;
+                    match numbers {
+                        Some(numbers) => numbers.push(values.next(property.scalar, place)? as f32),
+                        None => skip(property, place, values)?,
+                    }
                     continue;
                 };
                 let found = values.next(property.scalar, place)?;
@@ -123,7 +139,15 @@ impl PlyContent {
             }
             self.vertex(vertex);
         }
+        self.keep(element, numbers, ScalarValues::Vertices);
         Ok(())
+    }
+
+    fn keep(&mut self, element: &Element, numbers: Numbers, values: fn(Vec<f32>) -> ScalarValues) {
+        for (property, numbers) in element.properties.iter().zip(numbers) {
+            let property = |numbers| Property { name: property.name.clone(), part: 0, values: values(numbers) };
+            self.properties.extend(numbers.map(property));
+        }
     }
 
     fn vertex(&mut self, slots: [f64; 12]) {
@@ -188,11 +212,12 @@ impl PlyContent {
         values: &mut Values,
         mut take: impl FnMut(&mut Self, &Values, ElementProperty) -> Result<(), LoadError>,
     ) -> Result<(), LoadError> {
-        let is_list = |property: &Property| {
+        let is_list = |property: &PropertyType| {
             property.list.is_some() && !property.scalar.is_float() && CORNERS.contains(&property.name.as_str())
         };
         let list = element.properties.iter().position(is_list);
-        self.warn_of_skipped(element, |i| Some(i) == list);
+        let mut numbers = numbers(element, |_| element.name == "face");
+        self.warn_of_skipped(element, |i| Some(i) == list || numbers[i].is_some());
         if element.properties.is_empty() {
             return Ok(());
         }
@@ -212,12 +237,24 @@ impl PlyContent {
                             self.corners.push(if is_restart { RESTART } else { corner as u32 });
                         }
                     }
-                    _ => skip(property, place, values)?,
+                    _ => match &mut numbers[i] {
+                        Some(numbers) => numbers.push(values.next(property.scalar, place)? as f32),
+                        None => skip(property, place, values)?,
+                    },
                 }
             }
+            let before = self.indices.len() / 3;
             let property = list.map_or("", |list| &element.properties[list].name);
             take(self, values, ElementProperty { element: &element.name, number, property })?;
+            // One a triangle.
+            let triangles = self.indices.len() / 3 - before;
+            for numbers in numbers.iter_mut().flatten() {
+                let length = (numbers.len() - 1) + triangles;
+                let number = numbers.last().copied().unwrap_or_default();
+                numbers.resize(length, number);
+            }
         }
+        self.keep(element, numbers, ScalarValues::Faces);
         Ok(())
     }
 
@@ -233,6 +270,12 @@ impl PlyContent {
             self.warnings.push(format!("of `{}` is skipped: {names}", abridged(&element.name, "")));
         }
     }
+}
+
+/// Room for the numbers of the properties that are single numbers, and are not used otherwise.
+fn numbers(element: &Element, is_free: impl Fn(usize) -> bool) -> Numbers {
+    let is_kept = |(i, property): (usize, &PropertyType)| property.list.is_none() && is_free(i);
+    element.properties.iter().enumerate().map(|property| is_kept(property).then(Vec::new)).collect()
 }
 
 /// Marks the −1 between strips.
@@ -267,7 +310,7 @@ fn skip_all(element: &Element, values: &mut Values) -> Result<(), LoadError> {
     Ok(())
 }
 
-fn skip(property: &Property, place: ElementProperty, values: &mut Values) -> Result<(), LoadError> {
+fn skip(property: &PropertyType, place: ElementProperty, values: &mut Values) -> Result<(), LoadError> {
     let count = match property.list {
         Some(length) => length_of(length, place, values)?,
         None => 1,

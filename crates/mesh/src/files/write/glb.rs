@@ -291,8 +291,10 @@ impl Document {
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.data.len() }],
         });
-        if !model.materials.is_empty() {
-            root["materials"] = model.materials.iter().map(material).collect();
+        let materials: Vec<Value> = model.materials.iter().map(material).collect();
+        let has_unlit = materials.iter().any(|material| material.get("extensions").is_some());
+        if !materials.is_empty() {
+            root["materials"] = json!(materials);
         }
         if !self.cameras.is_empty() {
             root["cameras"] = json!(self.cameras);
@@ -305,6 +307,9 @@ impl Document {
         if !self.lights.is_empty() {
             used.push("KHR_lights_punctual");
             root["extensions"] = json!({ "KHR_lights_punctual": { "lights": self.lights } });
+        }
+        if has_unlit {
+            used.push("KHR_materials_unlit");
         }
         if !used.is_empty() {
             root["extensionsUsed"] = json!(used);
@@ -334,6 +339,9 @@ fn material(source: &SourceMaterial) -> Value {
     if !pbr.name.is_empty() {
         described["name"] = json!(pbr.name);
     }
+    if pbr.unlit {
+        described["extensions"] = json!({ "KHR_materials_unlit": {} });
+    }
     match pbr.alpha {
         AlphaMode::Opaque => {}
         AlphaMode::Mask { cutoff } => {
@@ -358,6 +366,7 @@ fn metallic_roughness(mtl: &MtlMaterial) -> MetallicRoughness {
         roughness,
         emissive: mtl.ke.unwrap_or([0.0; 3]).map(|x| x.clamp(0.0, 1.0)),
         double_sided: false,
+        unlit: false,
         alpha: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
         maps: GltfMaps::default(),
     }

@@ -38,7 +38,7 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
             Err(WriteError::UnknownExtension { path: path.to_owned(), extension })
         }
     }?;
-    lost.extend(lost_images(model));
+    lost.extend(lost_images(model).into_iter().chain(lost_properties(model)));
     Ok(lost)
 }
 
@@ -73,8 +73,14 @@ pub fn write_quantised(path: &Path, model: &Model) -> Result<(f64, Vec<String>),
     }
     let moved = model.parts.iter().map(|part| quantise::Grid::for_mesh(&part.mesh).largest_error()).fold(0.0, f64::max);
     let mut lost = glb::write(path, model, true)?;
-    lost.extend(lost_images(model));
+    lost.extend(lost_images(model).into_iter().chain(lost_properties(model)));
     Ok((moved, lost))
+}
+
+/// The warning about numbers beside the meshes.
+fn lost_properties(model: &Model) -> Option<String> {
+    let names: Vec<&str> = model.properties.iter().map(|property| property.name.as_str()).collect();
+    (!names.is_empty()).then(|| format!("properties: {}", names.join(", ")))
 }
 
 /// The warning about images that materials refer to.

@@ -97,8 +97,9 @@ fn write_material(file: &mut impl Write, name: &str, source: &SourceMaterial) ->
         SourceMaterial::Mtl(mtl) => mtl,
         SourceMaterial::MetallicRoughness(pbr) => {
             let [r, g, b, alpha] = pbr.base_color;
-            of_pbr =
-                MtlMaterial { kd: Some([r, g, b]), ke: Some(pbr.emissive), d: Some(alpha), ..MtlMaterial::default() };
+            // `illum 0` is the sum of Kd and Ke, whatever the lights.
+            let (ke, illum) = if pbr.unlit { (None, Some(0)) } else { (Some(pbr.emissive), None) };
+            of_pbr = MtlMaterial { kd: Some([r, g, b]), ke, d: Some(alpha), illum, ..MtlMaterial::default() };
             &of_pbr
         }
     };

@@ -65,7 +65,7 @@ impl Oracle {
                 let shading = [&Zone::disc(centre, radius)];
                 self.stack(centre, radius, &shading).possible(&self.scene, behind, self.clamp)
             }
-            Samples::Four => {
+            Samples::Four | Samples::Sixteen | Samples::SixtyFour => {
                 let shading = [&Zone::disc(centre, radius), &Zone::square(centre, 0.5 + radius)];
                 let at = |at: DVec2| self.stack(at, radius, &shading).possible(&self.scene, behind, self.clamp);
                 let samples = FOUR.map(|sample| at(corner + DVec2::from_array(sample)));
