@@ -46,6 +46,16 @@ pub fn scene(seed: u64, number: u64) -> Value {
         cut(random, unit, objects);
         turn_normals(random, objects);
     }
+    if let Some(Value::Array(objects)) = scene.0.get_mut("objects") {
+        for object in objects {
+            if random.percent(12) {
+                object["shading"] = appearance::terms(random);
+            }
+        }
+    }
+    if random.percent(15) {
+        scene.set("lights", random.choose(&["studio", "three_point", "headlight"]).into());
+    }
     scene.into()
 }
 

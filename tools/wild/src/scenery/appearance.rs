@@ -33,6 +33,14 @@ pub(super) fn shading(random: &mut Rng) -> Value {
     named::<Shading>(random)
 }
 
+/// Each term of the lights at a frequency of its own.
+pub(super) fn terms(random: &mut Rng) -> Value {
+    let frequencies: &[&str] =
+        if random.percent(30) { &["triangle", "never"] } else { &["vertex", "fragment", "never"] };
+    let mut frequency = || random.choose(frequencies);
+    json!({"terms": {"diffuse": frequency(), "specular": frequency()}})
+}
+
 pub(super) fn reflectance(random: &mut Rng) -> Value {
     named::<Reflectance>(random)
 }

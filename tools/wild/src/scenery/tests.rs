@@ -63,8 +63,14 @@ fn every_key_and_word_of_the_format_is_drawn() {
     // Lines and backgrounds are laid over and behind the finished picture by the same code for all renderers; the judge
     // does not judge them.
     let of_edges = ["edges", "which", "all", "feature", "boundary", "silhouette", "width", "hidden", "omit", "dash"];
+    let of_legends = ["legend"];
+    // Numbers become an image of their colours.
+    let of_scalars = ["scalars", "property", "at_vertices", "on_faces", "map", "range", "missing", "isolines"];
+    let of_maps_of_colors = ["viridis", "plasma", "inferno", "magma", "cividis", "blue_red"];
     let of_backgrounds = ["surface", "background_below", "background_opacity"];
-    let left_out = [&left_out[..], &of_maps, &of_texels, &of_views, &of_edges, &of_backgrounds].concat();
+    let left_out =
+        [&left_out[..], &of_maps, &of_texels, &of_views, &of_edges, &of_backgrounds, &of_legends, &of_scalars];
+    let left_out = [left_out.concat(), of_maps_of_colors.to_vec()].concat();
     for word in words.iter().filter(|word| !left_out.contains(&word.as_str())) {
         let times = census.get(word).copied().unwrap_or(0);
         assert!(times >= 20, "{word} is drawn {times} times");
@@ -82,5 +88,5 @@ fn the_same_numbers_draw_the_same_scene() {
 #[test]
 fn scenes_are_the_same_on_every_machine() {
     let bytes: u64 = (0..100).flat_map(|number| scene(1, number).to_string().into_bytes()).map(u64::from).sum();
-    assert_eq!(bytes, 35_921_507);
+    assert_eq!(bytes, 34_351_645);
 }
