@@ -56,7 +56,24 @@ pub fn scene(seed: u64, number: u64) -> Value {
     if random.percent(15) {
         scene.set("lights", random.choose(&["studio", "three_point", "headlight"]).into());
     }
+    if random.percent(12) {
+        put_into_layers(random, &mut scene);
+    }
     scene.into()
+}
+
+/// Puts some objects and lights into layers, and has the camera see some of them.
+fn put_into_layers(random: &mut Rng, scene: &mut Object) {
+    if let Some(camera) = scene.0.get_mut("camera") {
+        camera["layers"] = json!(random.choose(&[&[0][..], &[0, 1], &[0, 1, 31], &[1]]));
+    }
+    for list in ["objects", "lights"] {
+        for item in scene.0.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten() {
+            if random.percent(40) {
+                item["layers"] = json!(random.choose(&[&[0][..], &[1], &[1, 31], &[0, 2], &[]]));
+            }
+        }
+    }
 }
 
 /// Puts normal maps on some objects, most of which are then lit at the pixels. An object at the position of another

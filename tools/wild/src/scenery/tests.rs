@@ -60,6 +60,8 @@ fn every_key_and_word_of_the_format_is_drawn() {
     let of_texels = ["uv_set", "first", "second", "channel", "red", "green", "blue", "alpha"];
     // A view becomes a camera of other numbers before anything is drawn.
     let of_views = ["view", "azimuth_deg", "elevation_deg", "left", "right", "top", "bottom", "iso", "fit", "zoom"];
+    // Each part of a shared picture is the picture of its camera.
+    let of_viewports = ["viewport", "fractions", "order", "load", "clear"];
     // Lines and backgrounds are laid over and behind the finished picture by the same code for all renderers; the judge
     // does not judge them.
     let of_edges = ["edges", "which", "all", "feature", "boundary", "silhouette", "width", "hidden", "omit", "dash"];
@@ -68,8 +70,17 @@ fn every_key_and_word_of_the_format_is_drawn() {
     let of_scalars = ["scalars", "property", "at_vertices", "on_faces", "map", "range", "missing", "isolines"];
     let of_maps_of_colors = ["viridis", "plasma", "inferno", "magma", "cividis", "blue_red"];
     let of_backgrounds = ["surface", "background_below", "background_opacity"];
-    let left_out =
-        [&left_out[..], &of_maps, &of_texels, &of_views, &of_edges, &of_backgrounds, &of_legends, &of_scalars];
+    let left_out = [
+        &left_out[..],
+        &of_maps,
+        &of_texels,
+        &of_views,
+        &of_edges,
+        &of_backgrounds,
+        &of_legends,
+        &of_scalars,
+        &of_viewports,
+    ];
     let left_out = [left_out.concat(), of_maps_of_colors.to_vec()].concat();
     for word in words.iter().filter(|word| !left_out.contains(&word.as_str())) {
         let times = census.get(word).copied().unwrap_or(0);
