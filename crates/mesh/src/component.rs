@@ -38,7 +38,7 @@ impl From<Handle<Mesh>> for Mesh3d {
 
 /// The lines and points that an entity shows.
 ///
-/// They are drawn over the finished picture ([`LineStyle`] says how wide), hidden by the surfaces before them. The
+/// They are drawn over the finished picture (`LineStyle` of `halfway_lighting` says how wide), hidden by the surfaces before them. The
 /// entity's `GlobalTransform` places them; an identity [`Transform`] is added where there is none.
 ///
 /// ```
@@ -54,8 +54,6 @@ impl From<Handle<Mesh>> for Mesh3d {
 /// let helix = app.world_mut().resource_mut::<Assets<Lines>>().add(helix);
 /// app.world_mut().spawn(Lines3d(helix));
 /// ```
-///
-/// [`LineStyle`]: https://docs.rs/halfway_lighting/latest/halfway_lighting/struct.LineStyle.html
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq)]
 #[require(Transform, SpawnOrder = SpawnOrder::next())]
 pub struct Lines3d(pub Handle<Lines>);

@@ -136,22 +136,8 @@ fn strips_fans_and_lists_become_triangles() {
         ("fan", 6, "", &[1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5, 0], 6, vec![format!("2 {smooth}")]),
         // Indices 1, 2, 3 of one byte each; the unused vertices are left out.
         ("indexed", 4, ",\"indices\":1", &[0, 1, 2], 3, vec![format!("2 {smooth}")]),
-        (
-            "points",
-            0,
-            "",
-            &[],
-            0,
-            vec![format!("1 {smooth}")],
-        ),
-        (
-            "line strip",
-            3,
-            "",
-            &[],
-            0,
-            vec![format!("1 {smooth}")],
-        ),
+        ("points", 0, "", &[], 0, vec![format!("1 {smooth}")]),
+        ("line strip", 3, "", &[], 0, vec![format!("1 {smooth}")]),
     ];
     for (name, mode, indices, expected, vertices, warnings) in rows {
         let (json, data) = strip(mode, indices);

@@ -46,7 +46,9 @@ fn obj_has_lines_and_points_by_name_and_material() {
 #[test]
 fn ply_has_points_or_edges() {
     let header = |elements: &str| {
-        format!("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n{elements}end_header\n0 0 0 0 0 2\n1 0 0 0 0 1\n0 1 0 0 0 1\n")
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n{elements}end_header\n0 0 0 0 0 2\n1 0 0 0 0 1\n0 1 0 0 0 1\n"
+        )
     };
     let cloud = load_bytes(Format::Ply, header("element face 0\nproperty list uchar int vertex_indices\n").as_bytes());
     let cloud = cloud.unwrap();
@@ -62,9 +64,12 @@ fn ply_has_points_or_edges() {
     assert!(error.contains("edge 1, vertex2: vertex 3; one of 3 vertices that stand before it"), "{error}");
 }
 
+/// A mode with its lines and points.
+type ModeRow = (u32, &'static [[u32; 2]], &'static [u32]);
+
 #[test]
 fn gltf_has_all_modes() {
-    let positions: Vec<u8> = CORNERS.iter().flat_map(|p| p.to_array()).flat_map(f32::to_le_bytes).collect();
+    let positions: Vec<u8> = CORNERS.iter().flat_map(Vec3::to_array).flat_map(f32::to_le_bytes).collect();
     let json = |mode: u32, primitive: &str| {
         format!(
             r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0,"translation":[5,0,0]}},{{"mesh":0}}],
@@ -73,7 +78,7 @@ fn gltf_has_all_modes() {
             "bufferViews":[{{"buffer":0,"byteLength":48}}],"buffers":[{{"byteLength":48}}]}}"#
         )
     };
-    let rows: [(u32, &[[u32; 2]], &[u32]); 4] = [
+    let rows: [ModeRow; 4] = [
         (0, &[], &[0, 1, 2, 3]),
         (1, &[[0, 1], [2, 3]], &[]),
         (2, &[[0, 1], [1, 2], [2, 3], [3, 0]], &[]),

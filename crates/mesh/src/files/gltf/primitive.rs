@@ -147,7 +147,12 @@ impl<'a> Primitives<'a> {
         let (number_of, uses) = if is_cloud { (1, corners) } else { (2, ends(primitive.mode(), &corners)) };
         if let Some(at) = uses.iter().position(|&index| index as usize >= vertices) {
             let element = if is_cloud { "point" } else { "line" };
-            return Err(invalid(MeshError::NoSuchVertex { element, number: at / number_of, index: uses[at], vertices }));
+            return Err(invalid(MeshError::NoSuchVertex {
+                element,
+                number: at / number_of,
+                index: uses[at],
+                vertices,
+            }));
         }
         let (which, numbers) = used_vertices(uses, vertices).map_err(invalid)?;
         let used = match &which {
@@ -158,9 +163,10 @@ impl<'a> Primitives<'a> {
         let Attributes { normals, uvs, colors, .. } = self.attributes(element, primitive, vertices)?;
         self.with_idle_uvs += usize::from(uvs.is_some());
         let positions = positions.floats(&which, Vec3::from_array);
-        let lines = match is_cloud {
-            true => Lines::new(positions, Vec::new(), numbers),
-            false => Lines::new(positions, numbers.as_chunks().0.to_vec(), Vec::new()),
+        let lines = if is_cloud {
+            Lines::new(positions, Vec::new(), numbers)
+        } else {
+            Lines::new(positions, numbers.as_chunks().0.to_vec(), Vec::new())
         };
         let mut lines = lines.map_err(invalid)?;
         if let Some(normals) = normals {
@@ -241,16 +247,14 @@ fn is_lines(mode: Mode) -> bool {
 /// The two ends of each line that a primitive's corners make (glTF 2.0 §3.7.2.1). A last corner without another, and
 /// the loop of a single corner, make none.
 fn ends(mode: Mode, corners: &[u32]) -> Vec<u32> {
-    match mode {
-        Mode::Lines => corners.as_chunks::<2>().0.as_flattened().to_vec(),
-        _ => {
-            let mut ends: Vec<u32> = corners.windows(2).flatten().copied().collect();
-            if let (Mode::LineLoop, [first, .., last]) = (mode, corners) {
-                ends.extend([*last, *first]);
-            }
-            ends
-        }
+    if mode == Mode::Lines {
+        return corners.as_chunks::<2>().0.as_flattened().to_vec();
     }
+    let mut ends: Vec<u32> = corners.windows(2).flatten().copied().collect();
+    if let (Mode::LineLoop, [first, .., last]) = (mode, corners) {
+        ends.extend([*last, *first]);
+    }
+    ends
 }
 
 /// The corners of the triangles that a primitive's corners make (glTF 2.0 §3.7.2.1).

@@ -229,7 +229,8 @@ impl Obj {
         let mut has_uvs = false;
         for word in statement.words() {
             let (vertex, uv) = word.split_once('/').map_or((word, ""), |(vertex, uv)| (vertex, uv));
-            let index = vertex.parse().map_err(|_| statement.unexpected_word(word, "vertices of the form v or v/vt are"))?;
+            let index =
+                vertex.parse().map_err(|_| statement.unexpected_word(word, "vertices of the form v or v/vt are"))?;
             vertices.push(self.absolute(statement, 0, index)?);
             has_uvs |= !uv.is_empty();
         }
@@ -382,13 +383,7 @@ fn before_comment(name: &str) -> &str {
     name.split_once(" #").map_or(name, |(name, _)| name.trim_ascii_end())
 }
 
-fn out_of_range(
-    path: &Path,
-    (line, statement): (usize, &str),
-    kind: usize,
-    index: i64,
-    count: i64,
-) -> LoadError {
+fn out_of_range(path: &Path, (line, statement): (usize, &str), kind: usize, index: i64, count: i64) -> LoadError {
     let (keyword, name) = REFERRED[kind];
     LoadError::Line {
         path: path.to_owned(),

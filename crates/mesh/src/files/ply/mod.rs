@@ -189,7 +189,8 @@ impl PlyContent {
 
     fn edges(&mut self, element: &Element, values: &mut Values) -> Result<(), LoadError> {
         let end_of = |property: &Property| {
-            ENDS.iter().position(|name| property.name == *name && property.list.is_none() && !property.scalar.is_float())
+            ENDS.iter()
+                .position(|name| property.name == *name && property.list.is_none() && !property.scalar.is_float())
         };
         let ends: Vec<Option<usize>> = element.properties.iter().map(end_of).collect();
         if ![0, 1].iter().all(|end| ends.contains(&Some(*end))) {

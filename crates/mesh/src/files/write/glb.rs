@@ -10,8 +10,8 @@ use serde_json::{Map, Value, json};
 use super::file::{WriteError, replace};
 use super::quantise::{Grid, signed, unsigned};
 use crate::{
-    AlphaMode, Bounds, GltfMaps, LinePart, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
-    SourceMaterial, SourceProjection,
+    AlphaMode, Bounds, GltfMaps, LinePart, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera,
+    SourceLight, SourceLightKind, SourceMaterial, SourceProjection,
 };
 
 const FLOAT: u32 = 5126;

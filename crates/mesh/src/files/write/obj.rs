@@ -41,8 +41,7 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
     let placed: Vec<Placed> =
         model.parts.iter().enumerate().map(|(i, part)| Placed::new(path, i, part)).collect::<Result<_, _>>()?;
     let lines = model.lines.iter().enumerate();
-    let placed_lines =
-        lines.map(|(i, part)| Placed::line_positions(path, i, part)).collect::<Result<Vec<_>, _>>()?;
+    let placed_lines = lines.map(|(i, part)| Placed::line_positions(path, i, part)).collect::<Result<Vec<_>, _>>()?;
     replace(path, |file| {
         if !model.materials.is_empty() {
             writeln!(file, "mtllib {}", library.file_name().unwrap_or_default().to_string_lossy())?;

@@ -38,16 +38,16 @@ impl Placed {
 
     /// The positions of lines and points in world space.
     pub(super) fn line_positions(path: &Path, index: usize, part: &LinePart) -> Result<Vec<Vec3>, WriteError> {
-        let world_from_part = part.world_from_part.as_dmat4();
-        let place = |p: &Vec3| match part.world_from_part == Mat4::IDENTITY {
-            true => *p,
-            false => world_from_part.transform_point3(p.as_dvec3()).as_vec3(),
-        };
-        let positions: Vec<Vec3> = part.lines.positions().iter().map(place).collect();
-        match positions.iter().all(|p| p.is_finite()) {
-            true => Ok(positions),
-            false => Err(WriteError::NotFinite { path: path.to_owned(), part: index }),
+        if part.world_from_part == Mat4::IDENTITY {
+            return Ok(part.lines.positions().to_vec());
         }
+        let world_from_part = part.world_from_part.as_dmat4();
+        let place = |p: &Vec3| world_from_part.transform_point3(p.as_dvec3()).as_vec3();
+        let positions: Vec<Vec3> = part.lines.positions().iter().map(place).collect();
+        if positions.iter().all(|p| p.is_finite()) {
+            return Ok(positions);
+        }
+        Err(WriteError::NotFinite { path: path.to_owned(), part: index })
     }
 
     /// The corners of a triangle, swapped if mirrored so that its front stays in front.
