@@ -19,7 +19,7 @@ pub use halfway_lighting::{
     GlobalAmbient, HemisphereLight, Intensity, LightingPlugin, Material, PointLight, Projection, Reflectance, Samples,
     Shading, SpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Viewer, Visibility,
 };
-pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
+pub use halfway_mesh::{Cuboid, Lines, Lines3d, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
 pub use halfway_record::output::SavePicture;
 #[cfg(feature = "wgpu")]
 pub use halfway_render::Compile;

@@ -67,9 +67,13 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     for lost in &lost {
         println!("lost       {lost}");
     }
-    let vertices: usize = model.parts.iter().map(|part| part.mesh.positions().len()).sum();
+    let of_lines = model.lines.iter().map(|part| part.lines.positions().len());
+    let vertices: usize = model.parts.iter().map(|part| part.mesh.positions().len()).chain(of_lines).sum();
     let (parts, triangles) = (model.parts.len(), model.triangle_count());
-    println!("{}: {parts} parts, {triangles} triangles, {vertices} vertices", args.output.display());
+    let counts = [(model.line_count(), "lines"), (model.point_count(), "points")];
+    let counts = counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!(", {count} {what}"));
+    let more: String = counts.collect();
+    println!("{}: {parts} parts, {triangles} triangles, {vertices} vertices{more}", args.output.display());
     Ok(())
 }
 
@@ -92,7 +96,7 @@ fn change(args: &ConvertArgs, model: &mut Model) -> Result<(), Failure> {
         meshes.make_normals(normals);
     }
     meshes.put_into(model);
-    if model.parts.is_empty() {
+    if model.is_empty() {
         return Err(format!("{}: no triangle is left of any part", args.input.display()).into());
     }
     Ok(())

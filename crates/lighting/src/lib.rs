@@ -37,6 +37,7 @@
 //! - [`bounds`]: what a light can add to a patch of surface at most, and which lights a patch needs.
 //! - [`record`]: lights, materials and instances as whatever draws reads them.
 //! - [`Choices`]: the names of shadings, reflectances and intensity policies, listed once.
+//! - [`Edges`], [`LineStyle`] and [`Show`]: lines over the finished picture.
 //! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
 //! - [`Shown`], [`propagation`]: what is hidden; whether transforms are propagated.
 //! - [`homogeneous`]: light positions as four coordinates.
@@ -84,6 +85,7 @@ mod invalid;
 mod light_colors;
 mod light_tree;
 pub mod lights;
+mod line_style;
 mod matched;
 mod material;
 #[cfg(feature = "ecs")]
@@ -99,6 +101,7 @@ pub mod record;
 mod rig;
 mod shade;
 mod shading;
+mod show;
 #[cfg(feature = "ecs")]
 mod shown;
 mod tolerance;
@@ -121,6 +124,7 @@ pub use frequency::Frequency;
 pub use intensity::Intensity;
 pub use invalid::{Fields, InvalidValue, Problem};
 pub use lights::{Attenuation, Cone, DirectionalLight, HemisphereLight, LightComponent, PointLight, SpotLight};
+pub use line_style::{LineStyle, Width};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
 #[cfg(feature = "ecs")]
@@ -133,6 +137,7 @@ pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
 pub use rig::LightRig;
 pub use shading::{Faces, Reflectance, Shading, Terms, Viewer};
+pub use show::Show;
 #[cfg(feature = "ecs")]
 pub use shown::Shown;
 pub use tolerance::{Tolerance, ViewTolerance};

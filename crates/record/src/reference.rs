@@ -6,9 +6,9 @@ use bevy_app::App;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::{Resource, World};
 use bevy_math::UVec2;
-use halfway_lighting::{Camera, Edges, Intensity, Samples};
+use halfway_lighting::{Camera, Intensity, Samples};
 use halfway_reference::{Mode, Oracle, OracleError};
-use halfway_render::{Picture, Pixels, Surfaces, draw_background, draw_edges};
+use halfway_render::{Picture, Pixels, Surfaces, draw_background, draw_lines, has_lines};
 use image::DynamicImage;
 
 use crate::recording::{FrameToDraw, RecordError, camera};
@@ -79,14 +79,14 @@ impl ReferenceDrawing {
             let shares = background_shares(world, frame.size, supersampling)?;
             draw_background(&mut picture, &shares, &camera);
         }
-        if world.query::<&Edges>().iter(world).next().is_some() {
+        if has_lines(world) {
             // Edges are those of the mesh, whatever is drawn for it.
             let oracle = Oracle::new(world, frame.size)?;
             let surfaces = Surfaces::found_by(world, frame.size, |x, y| {
                 let nearest = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest?;
                 Some((nearest.object, nearest.triangle?))
             })?;
-            draw_edges(world, &mut picture, &surfaces)?;
+            draw_lines(world, &mut picture, &surfaces)?;
         }
         Ok(picture)
     }

@@ -52,7 +52,7 @@ pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal
 pub use halfway_frame::why_empty::{EmptyReason, why_empty};
 pub use headless::Headless;
 pub use legend::Legend;
-pub use lines::draw_edges;
+pub use lines::{draw_lines, has_lines};
 pub use pending::PendingPicture;
 pub use picture::{Picture, Pixels};
 pub use plugin::RenderPlugin;

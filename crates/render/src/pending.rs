@@ -24,7 +24,7 @@ enum Pending {
 
 impl PendingPicture {
     /// Starts to copy the newest headless picture; later frames do not change what arrives. It is as the drawer left it:
-    /// opaque, and without the lines of [`Edges`](halfway_lighting::Edges), which
+    /// opaque, and without lines and points, which
     /// [`take_picture`](crate::take_picture) and [`render_picture`](crate::render_picture) add.
     ///
     /// In a system that runs before the frame of its update is drawn, in `Update` say, that is the picture of the update

@@ -67,7 +67,7 @@ pub fn take_picture(world: &mut World) -> Result<Picture, RenderError> {
 /// The picture with its background, its lines and its legend.
 fn finished(world: &mut World, mut picture: Picture) -> Result<Picture, RenderError> {
     background::put_behind(world, &mut picture)?;
-    if lines::are_there(world) {
+    if lines::has_lines(world) {
         lines::draw_over_frame(world, &mut picture)?;
     }
     if let (Some(legend), Some(view)) = (world.get_resource::<Legend>(), world.get_resource::<View>()) {

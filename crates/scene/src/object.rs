@@ -7,6 +7,7 @@ use crate::check::{Check, Limits};
 use crate::displacement::DisplacementEntry;
 use crate::edges::EdgesEntry;
 use crate::keys::{Object, keys};
+use crate::lines::LineStyleEntry;
 use crate::maps::MapsEntry;
 use crate::material::MaterialEntry;
 use crate::mesh::MeshEntry;
@@ -48,6 +49,8 @@ keys! {
         solid: Option<SolidEntry> = None,
         /// Lines along the edges of the mesh; null: the scene's.
         edges: Option<EdgesEntry> = None,
+        /// The looks of the model's lines and points; null: the scene's.
+        line_style: Option<LineStyleEntry> = None,
         /// How translation, rotation and scale change in time.
         animation: Vec<TrackEntry> = Vec::new(),
         [left out]
