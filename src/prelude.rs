@@ -20,7 +20,7 @@ pub use halfway_lighting::{
     Reflectance, Samples, Shading, SpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Viewer, Viewport,
     Visibility,
 };
-pub use halfway_mesh::{Cuboid, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
+pub use halfway_mesh::{Cuboid, Lines, Lines3d, Mesh, Mesh3d, MeshPlugin, Plane, Teapot, UvSphere};
 pub use halfway_record::output::SavePicture;
 #[cfg(feature = "wgpu")]
 pub use halfway_render::Compile;

@@ -26,6 +26,7 @@ mod render {
     mod edges;
     mod engine;
     mod errors;
+    mod explained;
     mod failures;
     mod floats;
     mod globs;
@@ -52,6 +53,7 @@ mod render {
     mod slivers;
     mod solids;
     mod stage;
+    mod strokes;
     mod surfaces;
     mod terms;
     mod timing;

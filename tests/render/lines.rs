@@ -4,7 +4,7 @@ use crate::render::scene::{Scene, Thing, glowing};
 use crate::render::stage::Stage;
 use halfway::lighting::{Edges, HiddenEdges, WhichEdges};
 use halfway::prelude::*;
-use halfway::render::{draw_edges, take_picture};
+use halfway::render::{draw_lines, take_picture};
 use image::Rgba32FImage;
 
 const RED: LinearRgba = LinearRgba::rgb(1.0, 0.0, 0.0);
@@ -41,7 +41,7 @@ fn a_border_covers_its_width_and_its_colour_is_the_one_given() {
         stage.world().entity_mut(square).insert(Edges {
             color: RED,
             opacity,
-            width,
+            width: width.into(),
             ..Edges::new(WhichEdges::Boundary)
         });
         let picture = drawn(&mut stage);
@@ -66,7 +66,7 @@ fn a_border_covers_its_width_and_its_colour_is_the_one_given() {
 fn bytes_have_the_same_lines() {
     let mut stage = Stage::new(100, 100);
     let square = stage.set(&plan().with(green_square(Vec3::new(0.0, 0.0, -5.0), 4.0)))[0];
-    let edges = Edges { color: RED, width: 1.0, ..Edges::new(WhichEdges::Boundary) };
+    let edges = Edges { color: RED, width: 1.0.into(), ..Edges::new(WhichEdges::Boundary) };
     stage.world().entity_mut(square).insert(edges);
     stage.pixels(Pixels::Byte);
     let picture = stage.bytes();
@@ -87,7 +87,7 @@ fn what_lies_behind_a_surface_is_left_out_or_dashed() {
         columns.map(|x| red(picture, x, 20)).sum::<f32>() / count
     };
     for (hidden, expected) in [(HiddenEdges::Omit, 0.0), (HiddenEdges::Dash, 5.0 / 9.0)] {
-        let edges = Edges { color: RED, width: 2.0, hidden, ..Edges::new(WhichEdges::Boundary) };
+        let edges = Edges { color: RED, width: 2.0.into(), hidden, ..Edges::new(WhichEdges::Boundary) };
         stage.world().entity_mut(things[0]).insert(edges);
         let picture = drawn(&mut stage);
         assert!((share_of_line(&picture, 22..49) - 1.0).abs() < 1e-5, "{hidden:?}");
@@ -104,7 +104,7 @@ fn each_choice_has_its_edges_and_the_camera_s_hold_for_all() {
     let cube = stage.set(&plan().with(cube.with_material(glowing(0.0, 1.0, 0.0))))[0];
     let world = stage.world();
     let camera = world.query_filtered::<Entity, With<Camera>>().single(world).expect("a camera");
-    let with = |which| Edges { color: RED, width: 1.0, ..Edges::new(which) };
+    let with = |which| Edges { color: RED, width: 1.0.into(), ..Edges::new(which) };
     // Pixels of the frontal face that are lines: its outline, and with all edges its diagonal.
     let mut count = |which, wires: bool| {
         stage.world().entity_mut(camera).insert(Edges { surface: !wires, ..with(which) });
@@ -151,7 +151,7 @@ fn lines_are_those_that_the_oracle_s_surfaces_give() {
         let mut lines_by = |found: &dyn Fn(u32, u32) -> Option<(Entity, u32)>| {
             let surfaces = Surfaces::found_by(stage.world(), size, found).expect("a camera");
             let mut lines = Picture::Float(Rgba32FImage::new(160, 120));
-            draw_edges(stage.world(), &mut lines, &surfaces).expect("valid edges");
+            draw_lines(stage.world(), &mut lines, &surfaces).expect("valid edges");
             let Picture::Float(lines) = lines else { panic!("bytes") };
             lines
         };
@@ -175,7 +175,7 @@ fn an_invalid_width_is_refused_by_name() {
     let mut stage = Stage::new(20, 20);
     let square = Thing::square(Vec3::new(0.0, 0.0, -5.0), Vec3::Z, 4.0).named("tile");
     let square = stage.set(&plan().with(square))[0];
-    stage.world().entity_mut(square).insert(Edges { width: 0.0, ..Edges::default() });
+    stage.world().entity_mut(square).insert(Edges { width: 0.0.into(), ..Edges::default() });
     let error = take_picture(stage.world()).expect_err("no width").to_string();
     assert!(error.contains("\"tile\"") && error.contains("width") && error.contains("above 0"), "{error}");
 }

@@ -97,10 +97,14 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     for lost in &lost {
         say(format!("lost       {lost}"));
     }
-    let vertices: usize = model.parts.iter().map(|part| part.mesh.positions().len()).sum();
+    let of_lines = model.lines.iter().map(|part| part.lines.positions().len());
+    let vertices: usize = model.parts.iter().map(|part| part.mesh.positions().len()).chain(of_lines).sum();
     let (parts, triangles) = (model.parts.len(), model.triangle_count());
     let name = if to_standard { "standard output".to_owned() } else { args.output.display().to_string() };
-    say(format!("{name}: {parts} parts, {triangles} triangles, {vertices} vertices"));
+    let counts = [(model.line_count(), "lines"), (model.point_count(), "points")];
+    let counts = counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!(", {count} {what}"));
+    let more: String = counts.collect();
+    say(format!("{name}: {parts} parts, {triangles} triangles, {vertices} vertices{more}"));
     Ok(())
 }
 
@@ -140,7 +144,7 @@ fn change(args: &ConvertArgs, model: &mut Model, say: fn(String)) -> Result<(), 
         meshes.make_normals(normals);
     }
     meshes.put_into(model);
-    if model.parts.is_empty() {
+    if model.is_empty() {
         return Err(format!("{}: no triangle is left of any part", args.input.display()).into());
     }
     Ok(())

@@ -9,6 +9,7 @@ use crate::adapters::AdapterArgs;
 use crate::choices::{choice, values};
 use crate::edges::EdgeArgs;
 use crate::framing::FramingArgs;
+use crate::lines::LineArgs;
 use crate::look::LookArgs;
 use crate::reading::InputArgs;
 use crate::scalars::ScalarArgs;
@@ -47,6 +48,8 @@ pub(crate) struct DrawingArgs {
     pub(crate) edges: EdgeArgs,
     #[command(flatten)]
     pub(crate) scalars: ScalarArgs,
+    #[command(flatten)]
+    pub(crate) lines: LineArgs,
     #[command(flatten)]
     pub(crate) adapter: AdapterArgs,
 }

@@ -1,7 +1,7 @@
 //! `--edges`: lines along the edges of meshes.
 
 use clap::Args;
-use halfway::lighting::{Choices, Edges, HiddenEdges, WhichEdges};
+use halfway::lighting::{Choices, Edges, HiddenEdges, WhichEdges, Width};
 use halfway::prelude::LinearRgba;
 
 /// Lines over the picture, on all objects.
@@ -10,9 +10,9 @@ pub(crate) struct EdgeArgs {
     /// Draw lines along edges: all, sharp ones with borders and the silhouette (from 30°, or DEG), or these alone
     #[arg(long, value_name = "all|feature[=DEG]|boundary|silhouette", value_parser = parse)]
     edges: Option<WhichEdges>,
-    /// The width of the lines in pixels [default: 1.5]
-    #[arg(long, value_name = "PIXELS", requires = "edges", value_parser = parse_width)]
-    edge_width: Option<f32>,
+    /// The width of the lines in pixels, or in world units as 0.01w [default: 1.5]
+    #[arg(long, value_name = "WIDTH", requires = "edges", value_parser = parse_width)]
+    edge_width: Option<Width>,
     /// Dash the edges that lie behind surfaces
     #[arg(long, requires = "edges")]
     hidden_edges: bool,
@@ -28,7 +28,7 @@ impl EdgeArgs {
         if self.wireframe {
             // Lines on black are to be seen.
             let color = LinearRgba::rgb(0.6, 0.6, 0.6);
-            return Some(Edges { width: 1.0, surface: false, color, ..Edges::new(WhichEdges::All) });
+            return Some(Edges { width: 1.0.into(), surface: false, color, ..Edges::new(WhichEdges::All) });
         }
         let edges = Edges::new(self.edges?);
         Some(Edges { width: self.edge_width.unwrap_or(edges.width), hidden, ..edges })
@@ -46,9 +46,8 @@ fn parse(text: &str) -> Result<WhichEdges, String> {
     Edges::new(which).validate().map(|()| which).map_err(|_| "expected degrees from 0 to 180".to_owned())
 }
 
-fn parse_width(text: &str) -> Result<f32, String> {
-    let width = text.parse().ok().filter(|&width: &f32| width.is_finite() && width > 0.0);
-    width.ok_or_else(|| "expected a number of pixels above 0".to_owned())
+pub(crate) fn parse_width(text: &str) -> Result<Width, String> {
+    text.parse().map_err(str::to_owned)
 }
 
 #[cfg(test)]

@@ -53,12 +53,28 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     last.map_or(Ok(()), Err)
 }
 
-const TITLES: [&str; 9] =
-    ["file", "triangles", "vertices", "parts", "size x", "size y", "size z", "open parts", "normals"];
+const TITLES: [&str; 11] = [
+    "file",
+    "triangles",
+    "vertices",
+    "parts",
+    "size x",
+    "size y",
+    "size z",
+    "open parts",
+    "normals",
+    "lines",
+    "points",
+];
+
+/// The vertices of meshes, lines and points.
+fn vertices(model: &Model) -> usize {
+    let of_meshes = model.parts.iter().map(|part| part.mesh.positions().len());
+    of_meshes.chain(model.lines.iter().map(|part| part.lines.positions().len())).sum()
+}
 
 /// The columns of a model.
-fn row(file: &Path, model: &Model) -> [String; 9] {
-    let vertices: usize = model.parts.iter().map(|part| part.mesh.positions().len()).sum();
+fn row(file: &Path, model: &Model) -> [String; 11] {
     let size = model.bounds().map_or(Vec3::ZERO, |bounds| bounds.max - bounds.min);
     let open = model.parts.iter().filter(|part| part.mesh.is_open()).count();
     let mut kinds: Vec<String> = model.parts.iter().map(|part| normals(&part.mesh)).collect();
@@ -67,13 +83,15 @@ fn row(file: &Path, model: &Model) -> [String; 9] {
     [
         file.display().to_string(),
         model.triangle_count().to_string(),
-        vertices.to_string(),
+        vertices(model).to_string(),
         model.parts.len().to_string(),
         size.x.to_string(),
         size.y.to_string(),
         size.z.to_string(),
         open.to_string(),
         kinds.join("; "),
+        model.line_count().to_string(),
+        model.point_count().to_string(),
     ]
 }
 
@@ -105,6 +123,17 @@ fn print_model(file: &Path, model: &Model, levels: bool) {
         };
         let on = if matches!(property.values, ScalarValues::Vertices(_)) { "vertices" } else { "faces" };
         println!("property   \"{}\" of {on}: {range}", property.name);
+    }
+    for part in &model.lines {
+        let lines = &part.lines;
+        let material = part.material.and_then(|i| model.materials.get(i)).map_or("none", SourceMaterial::name);
+        let has = [(lines.normals().is_some(), ", normals"), (lines.colors().is_some(), ", colours")];
+        let has: String = has.iter().filter(|(has, _)| *has).map(|(_, what)| *what).collect();
+        let (segments, points) = (lines.segments().len(), lines.points().len());
+        println!(
+            "lines      \"{}\": {segments} lines, {points} points; positions{has}; material {material}",
+            part.name
+        );
     }
     model.materials.iter().for_each(print_material);
     for light in &model.lights {
@@ -157,9 +186,13 @@ fn projection(projection: SourceProjection) -> String {
 }
 
 fn print_shape(model: &Model) {
-    let vertices: usize = model.parts.iter().map(|part| part.mesh.positions().len()).sum();
     println!("triangles  {}", model.triangle_count());
-    println!("vertices   {vertices}");
+    for (title, count) in [("lines", model.line_count()), ("points", model.point_count())] {
+        if count > 0 {
+            println!("{title:<10} {count}");
+        }
+    }
+    println!("vertices   {}", vertices(model));
     if let Some(bounds) = model.bounds() {
         let size = bounds.max - bounds.min;
         println!("bounds     {} to {}, size {size}", bounds.min, bounds.max);

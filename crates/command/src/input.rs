@@ -86,6 +86,18 @@ impl SceneInput {
             scene.edges = Some(edges.into());
             scene.objects.iter_mut().for_each(|object| object.edges = None);
         }
+        if let Some(style) = args.lines.style() {
+            let all = std::iter::once(&mut scene.line_style).chain(scene.objects.iter_mut().map(|o| &mut o.line_style));
+            for (i, entry) in all.enumerate() {
+                // Objects that name no style follow the scene's.
+                if i == 0 || entry.is_some() {
+                    *entry = Some(style(entry.unwrap_or_default()));
+                }
+            }
+        }
+        if let Some(show) = args.lines.show() {
+            scene.show = show;
+        }
         let is_of_models = scene.objects.iter().all(|object| matches!(object.mesh, MeshEntry::Model(_)));
         if let Some(samples) = args.samples {
             scene.samples = samples;
@@ -123,15 +135,16 @@ impl SceneInput {
         self.camera.is_none() && self.scene.all_cameras().any(|camera| camera.viewport.is_some())
     }
 
-    /// Removes what is drawn over and behind the finished picture, by the same code for all renderers: lines along edges,
-    /// legends, and backgrounds of more than one opaque colour. Returns whether there was any.
+    /// Removes what is drawn over and behind the finished picture, by the same code for all renderers: lines, but for
+    /// those of models, legends, and backgrounds of more than one opaque colour. Returns whether there was any.
     pub(crate) fn remove_what_is_laid_over(&mut self) -> bool {
         let scene = &mut self.scene;
         let edges = scene.objects.iter_mut().filter_map(|object| object.edges.take()).count();
         let is_plain = scene.background_below.is_none() && scene.background_opacity >= 1.0;
         (scene.background_below, scene.background_opacity) = (None, 1.0);
         let legends = scene.all_cameras_mut().filter_map(|camera| camera.legend.take()).count();
-        scene.edges.take().is_some() || edges + legends > 0 || !is_plain
+        let shows = std::mem::take(&mut scene.show).any();
+        scene.edges.take().is_some() || edges + legends > 0 || shows || !is_plain
     }
 
     /// The file's name without its folder.

@@ -16,6 +16,7 @@ mod figures;
 mod framing;
 mod info;
 mod input;
+mod lines;
 mod look;
 mod picture;
 mod progress;

@@ -182,6 +182,14 @@ fn verdict(max: u8, bytes: &Verdict, float: Option<&Verdict>) -> Result<(), Fail
 /// Spawns the scene into the App and finishes its plugins. All frames show one moment.
 fn set_up(app: &mut App, input: &SceneInput) -> Result<(), Failure> {
     input.spawn(app)?;
+    let world = app.world_mut();
+    let lines: Vec<Entity> = world.query_filtered::<Entity, With<Lines3d>>().iter(world).collect();
+    if !lines.is_empty() {
+        eprintln!("note: the lines and points of models are drawn by the same code for all renderers, and not judged");
+    }
+    for entity in lines {
+        world.entity_mut(entity).remove::<Lines3d>();
+    }
     app.insert_resource(bevy_time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
     app.finish();
     app.cleanup();

@@ -8,7 +8,7 @@ use bevy_transform::components::GlobalTransform;
 use halfway_asset::Assets;
 use halfway_lighting::lights::LightQueries;
 use halfway_lighting::{Camera, Faces, GlobalAmbient, Material, Shown};
-use halfway_mesh::{Mesh, Mesh3d};
+use halfway_mesh::{Lines3d, Mesh, Mesh3d};
 use halfway_texture::environment::EnvironmentLight;
 use thiserror::Error;
 
@@ -71,7 +71,7 @@ pub enum EmptyReason {
 /// Why the newest picture shows nothing, in the order in which the reasons are looked for: no camera, no object, no mesh,
 /// all hidden, all without a size, all behind the camera, all outside of its view, no light, the camera inside of the only
 /// object in view, all faces in view away from it.
-/// `None` where none of these holds: the picture then shows something, or holds only what its objects' materials and
+/// `None` where none of these holds, and where there are lines or points and no other object: the picture then shows something, or holds only what its objects' materials and
 /// masks make of them.
 ///
 /// It is about the frame that was drawn last: [`View`] and transforms are read as they are.
@@ -92,6 +92,7 @@ pub fn why_empty(world: &mut World) -> Option<EmptyReason> {
     if world.query::<&Camera>().iter(world).next().is_none() {
         return Some(EmptyReason::NoCamera);
     }
+    let has_lines = world.query::<&Lines3d>().iter(world).next().is_some();
     let mut state =
         SystemState::<(Objects, LightSources, Shown, Option<Res<Assets<Mesh>>>, Option<Res<View>>)>::new(world);
     let (objects, lights, shown, meshes, view) = state.get(world).ok()?;
@@ -99,6 +100,9 @@ pub fn why_empty(world: &mut World) -> Option<EmptyReason> {
     // A fault of the camera is an error of the frame.
     view.camera?;
     let all = objects.iter().count();
+    if all == 0 && has_lines {
+        return None;
+    }
     if all == 0 {
         return Some(EmptyReason::NoObject);
     }

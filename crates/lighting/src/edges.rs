@@ -3,6 +3,7 @@
 use crate::LinearRgba;
 use crate::choices::{Choice, Choices};
 use crate::invalid::{Fields, InvalidValue};
+use crate::line_style::Width;
 use crate::range::Range;
 
 /// Lines along the edges of an object's mesh, over its surface. On a camera it holds for all objects that have none of
@@ -22,7 +23,7 @@ use crate::range::Range;
 /// // A part as in a drawing: its sharp edges and outlines, thin and dark.
 /// world.spawn((Camera::default(), Edges::new(WhichEdges::Feature(30_f32.to_radians()))));
 /// // A wireframe, one pixel wide.
-/// let wires = Edges { color: LinearRgba::rgb(0.0, 0.2, 0.6), width: 1.0, surface: false, ..Edges::new(WhichEdges::All) };
+/// let wires = Edges { color: LinearRgba::rgb(0.0, 0.2, 0.6), width: 1.0.into(), surface: false, ..Edges::new(WhichEdges::All) };
 /// assert!(wires.validate().is_ok());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,8 +35,8 @@ pub struct Edges {
     pub color: LinearRgba,
     /// The opacity, 0 to 1. Default 1.
     pub opacity: f32,
-    /// The width in pixels, above 0. Default 1.5.
-    pub width: f32,
+    /// The width, above 0. Default 1.5 pixels.
+    pub width: Width,
     /// The parts that lie behind surfaces. Default: left out.
     pub hidden: HiddenEdges,
     /// Whether the surface is drawn, too. Without it the lines are a wireframe, which hides nothing. Default true.
@@ -93,7 +94,14 @@ impl WhichEdges {
 impl Edges {
     /// Black lines of 1.5 pixels along these edges, hidden parts left out, over the surface.
     pub const fn new(which: WhichEdges) -> Self {
-        Self { which, color: LinearRgba::BLACK, opacity: 1.0, width: 1.5, hidden: HiddenEdges::Omit, surface: true }
+        Self {
+            which,
+            color: LinearRgba::BLACK,
+            opacity: 1.0,
+            width: Width::Pixels(1.5),
+            hidden: HiddenEdges::Omit,
+            surface: true,
+        }
     }
 
     /// Checks every field.
@@ -107,7 +115,7 @@ impl Edges {
         }
         fields.color("color", self.color)?;
         fields.within("opacity", self.opacity, Range::UNIT)?;
-        fields.within("width", self.width, Range::POSITIVE)
+        fields.within("width", self.width.value(), Range::POSITIVE)
     }
 }
 

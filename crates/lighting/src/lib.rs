@@ -40,6 +40,7 @@
 //! - [`record`]: lights, materials and instances as whatever draws reads them.
 //! - [`Viewport`] and [`Layers`]: several cameras in one picture, and what each sees.
 //! - [`Choices`]: the names of shadings, reflectances and intensity policies, listed once.
+//! - [`Edges`], [`LineStyle`] and [`Show`]: lines over the finished picture.
 //! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
 //! - [`Shown`], [`Cameras`], [`propagation`]: what is shown; which camera draws; whether transforms are propagated.
 //! - [`homogeneous`]: light positions as four coordinates.
@@ -89,6 +90,7 @@ mod legend;
 mod light_colors;
 mod light_tree;
 pub mod lights;
+mod line_style;
 mod matched;
 mod material;
 #[cfg(feature = "ecs")]
@@ -104,6 +106,7 @@ pub mod record;
 mod rig;
 mod shade;
 mod shading;
+mod show;
 #[cfg(feature = "ecs")]
 mod shown;
 mod tolerance;
@@ -129,6 +132,7 @@ pub use invalid::{Fields, InvalidValue, Problem};
 pub use layers::Layers;
 pub use legend::Legend;
 pub use lights::{Attenuation, Cone, DirectionalLight, HemisphereLight, LightComponent, PointLight, SpotLight};
+pub use line_style::{LineStyle, Width};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
 #[cfg(feature = "ecs")]
@@ -141,6 +145,7 @@ pub use propagation::{Propagation, propagation};
 pub use range::{CHANNEL_MAX, Range};
 pub use rig::LightRig;
 pub use shading::{Faces, Reflectance, Shading, Terms, Viewer};
+pub use show::Show;
 #[cfg(feature = "ecs")]
 pub use shown::Shown;
 pub use tolerance::{Tolerance, ViewTolerance};

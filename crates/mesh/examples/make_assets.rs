@@ -22,7 +22,7 @@ fn main() -> std::io::Result<()> {
 }
 
 /// Every file and its content.
-pub fn assets() -> [(&'static str, Vec<u8>); 9] {
+pub fn assets() -> [(&'static str, Vec<u8>); 10] {
     [
         ("cube.smf", CUBE.into()),
         ("teapot.mtl", BRASS.into()),
@@ -33,6 +33,7 @@ pub fn assets() -> [(&'static str, Vec<u8>); 9] {
         ("crate.png", textured::crate_color()),
         ("crate_height.png", textured::crate_height()),
         ("ball.glb", textured::ball_glb()),
+        ("helix.obj", helix_obj().into_bytes()),
     ]
 }
 
@@ -77,6 +78,33 @@ Ns 27.8974
 d 1
 illum 2
 ";
+
+/// Two strands of lines around the y axis, joined by rungs between points.
+fn helix_obj() -> String {
+    const STEPS: usize = 96;
+    const RUNGS: usize = 24;
+    let mut text = String::from("# A double helix of lines and points; written by make_assets.\n");
+    for (strand, color) in ["0.92 0.55 0.15", "0.2 0.55 0.95"].into_iter().enumerate() {
+        for step in 0..=STEPS {
+            let t = step as f32 / STEPS as f32;
+            let (sin, cos) = (TAU * (2.0 * t + 0.5 * strand as f32)).sin_cos();
+            let _ = writeln!(text, "v {:.4} {:.4} {:.4} {color}", 0.7 * cos, 3.0 * t - 1.5, 0.7 * sin);
+        }
+    }
+    for strand in 0..2 {
+        let _ = writeln!(text, "o strand{strand}");
+        let first = 1 + strand * (STEPS + 1);
+        let numbers: Vec<String> = (first..=first + STEPS).map(|number| number.to_string()).collect();
+        let _ = writeln!(text, "l {}", numbers.join(" "));
+    }
+    text.push_str("o rungs\n");
+    for rung in 0..=RUNGS {
+        let step = 1 + rung * STEPS / RUNGS;
+        let other = step + STEPS + 1;
+        let _ = writeln!(text, "l {step} {other}\np {step} {other}");
+    }
+    text
+}
 
 /// How many cells an edge of the teapot's patches has.
 const DIVISIONS: u32 = 8;

@@ -2,7 +2,7 @@
 //!
 //! # Features
 //! Both are on by default.
-//! - `ecs`: [`Mesh3d`], [`MeshPlugin`] and [`SpawnOrder`]. Without it the crate has no ECS below it.
+//! - `ecs`: [`Mesh3d`], [`Lines3d`], [`MeshPlugin`] and [`SpawnOrder`]. Without it the crate has no ECS below it.
 //! - `formats`: reading and writing of model files: [`load`], [`write`](write()), [`Model`] and its parts.
 
 mod bounds;
@@ -13,6 +13,7 @@ mod displace;
 mod edges;
 #[cfg(feature = "formats")]
 mod files;
+mod lines;
 mod mesh;
 mod mesh_edges;
 #[cfg(feature = "formats")]
@@ -31,18 +32,19 @@ mod triangle_tree;
 
 pub use bounds::Bounds;
 #[cfg(feature = "ecs")]
-pub use component::{Mesh3d, MeshPlugin, SpawnOrder};
+pub use component::{Lines3d, Mesh3d, MeshPlugin, SpawnOrder};
 #[cfg(feature = "formats")]
 pub use files::{
     Format, LoadError, LoadOptions, LoadProgress, MOST_PIPED, WriteError, load, load_bytes, load_stream, load_with,
     write, write_quantised,
 };
+pub use lines::Lines;
 pub use mesh::{Mesh, MeshError};
 pub use mesh_edges::MeshEdge;
 #[cfg(feature = "formats")]
 pub use model::{
-    AlphaMode, GltfMaps, MetallicRoughness, Model, MtlMaps, MtlMaterial, Part, Property, ScalarValues, SourceCamera,
-    SourceLight, SourceLightKind, SourceMaterial, SourceProjection,
+    AlphaMode, GltfMaps, LinePart, MetallicRoughness, Model, MtlMaps, MtlMaterial, Part, Property, ScalarValues,
+    SourceCamera, SourceLight, SourceLightKind, SourceMaterial, SourceProjection,
 };
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
 pub use occlusion::{OcclusionBake, OcclusionError, OcclusionImage};

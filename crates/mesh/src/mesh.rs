@@ -78,10 +78,25 @@ pub enum MeshError {
     /// There is nothing to show.
     #[error("the mesh has no triangles; at least one is expected")]
     NoTriangles,
+    /// There is nothing to show among [`Lines`](crate::Lines).
+    #[error("there are neither lines nor points; at least one is expected")]
+    NoLines,
+    /// A line or a point refers to a vertex that does not exist.
+    #[error("{element} {number}: vertex {index}; there are {vertices} vertices, numbered from 0")]
+    NoSuchVertex {
+        /// `"line"` or `"point"`.
+        element: &'static str,
+        /// Its number.
+        number: usize,
+        /// The vertex that it names.
+        index: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
     /// More vertices or indices than a draw call can count.
     #[error("{count} {elements}; at most {} are expected", u32::MAX)]
     TooMany {
-        /// `"vertices"` or `"indices"`.
+        /// `"vertices"`, `"indices"`, `"lines"` or `"points"`.
         elements: &'static str,
         /// How many there are.
         count: usize,
@@ -493,14 +508,14 @@ impl Mesh {
     }
 }
 
-fn check_count(elements: &'static str, count: usize) -> Result<(), MeshError> {
+pub(crate) fn check_count(elements: &'static str, count: usize) -> Result<(), MeshError> {
     match u32::try_from(count) {
         Ok(_) => Ok(()),
         Err(_) => Err(MeshError::TooMany { elements, count }),
     }
 }
 
-fn check_attribute(
+pub(crate) fn check_attribute(
     attribute: &'static str,
     expected: usize,
     values: impl ExactSizeIterator<Item = [f32; 3]>,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Mat4;
 
-use crate::{Bounds, Mesh, SourceMap};
+use crate::{Bounds, Lines, Mesh, SourceMap};
 
 /// The content of a model file: meshes placed in the world, and the materials and lights that the file describes.
 ///
@@ -22,9 +22,11 @@ use crate::{Bounds, Mesh, SourceMap};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
-    /// The meshes, at least one in a model that came from [`load`](crate::load).
+    /// The meshes. A model that came from [`load`](crate::load) has at least one here or in `lines`.
     pub parts: Vec<Part>,
-    /// The materials; [`Part::material`] indexes them.
+    /// The lines and points.
+    pub lines: Vec<LinePart>,
+    /// The materials; [`Part::material`] and [`LinePart::material`] index them.
     pub materials: Vec<SourceMaterial>,
     /// The lights.
     pub lights: Vec<SourceLight>,
@@ -37,12 +39,26 @@ pub struct Model {
 }
 
 impl Model {
-    /// The box around all parts in world space, or `None` where there are none.
+    /// The box around all meshes, lines and points in world space, or `None` where there are none.
     pub fn bounds(&self) -> Option<Bounds> {
-        self.parts
-            .iter()
-            .map(|part| part.mesh.bounds().transformed(&part.world_from_part))
-            .reduce(|all, part| all.union(&part))
+        let meshes = self.parts.iter().map(|part| part.mesh.bounds().transformed(&part.world_from_part));
+        let lines = self.lines.iter().map(|part| part.lines.bounds().transformed(&part.world_from_part));
+        meshes.chain(lines).reduce(|all, part| all.union(&part))
+    }
+
+    /// Whether there is neither a mesh nor a line nor a point.
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty() && self.lines.is_empty()
+    }
+
+    /// How many straight lines there are.
+    pub fn line_count(&self) -> usize {
+        self.lines.iter().map(|part| part.lines.segments().len()).sum()
+    }
+
+    /// How many points there are.
+    pub fn point_count(&self) -> usize {
+        self.lines.iter().map(|part| part.lines.points().len()).sum()
     }
 
     /// How many triangles the parts have together.
@@ -104,6 +120,19 @@ impl ScalarValues {
         let finite = || values.iter().copied().filter(|value| value.is_finite());
         Some([finite().reduce(f32::min)?, finite().reduce(f32::max)?])
     }
+}
+
+/// Lines and points of a model, with one material and a transform.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinePart {
+    /// The name of the object, group or node in the file; empty where it has none.
+    pub name: String,
+    /// The lines and points. Parts that show the same ones of the file share their data.
+    pub lines: Lines,
+    /// The index of their material in [`Model::materials`].
+    pub material: Option<usize>,
+    /// The transform of the part; may mirror, but is always finite and affine.
+    pub world_from_part: Mat4,
 }
 
 /// A material in the terms of its file.

@@ -9,10 +9,10 @@ use bevy_ecs::prelude::{Entity, Resource, World};
 use bevy_ecs::system::SystemState;
 use bevy_math::UVec2;
 use halfway_lighting::{
-    Camera, CameraTurn, Edges, Encoding, Intensity, Legend, Load, Samples, SharedPart, SharingCameras, current_camera,
+    Camera, CameraTurn, Encoding, Intensity, Legend, Load, Samples, SharedPart, SharingCameras, current_camera,
 };
 use halfway_reference::{Mode, Oracle, OracleError};
-use halfway_render::{Picture, Pixels, RenderError, draw_background, draw_edges, draw_kept, draw_legend};
+use halfway_render::{Picture, Pixels, RenderError, draw_background, draw_kept, draw_legend, draw_lines, has_lines};
 use image::DynamicImage;
 
 use crate::oracle_surfaces::{OracleFrame, surfaces};
@@ -121,10 +121,10 @@ impl ReferenceDrawing {
                 None => draw_background(&mut picture, &shares, &camera),
             }
         }
-        if world.query::<&Edges>().iter(world).next().is_some() {
+        if has_lines(world) {
             // Edges are those of the mesh, whatever is drawn for it.
             let surfaces = surfaces(world, frame.size)?;
-            draw_edges(world, &mut picture, &surfaces)?;
+            draw_lines(world, &mut picture, &surfaces)?;
         }
         Ok(picture)
     }

@@ -55,7 +55,7 @@ pub use halfway_frame::why_empty::{EmptyReason, why_empty};
 pub use halfway_lighting::{Legend, Load};
 pub use headless::Headless;
 pub use legend::draw_legend;
-pub use lines::draw_edges;
+pub use lines::{draw_lines, has_lines};
 pub use pending::PendingPicture;
 pub use picture::{Picture, Pixels};
 pub use plugin::RenderPlugin;

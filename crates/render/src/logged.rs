@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use bevy_ecs::prelude::*;
-use halfway_lighting::{AlphaMode, Edges, Material};
+use halfway_lighting::{AlphaMode, Material};
 use halfway_mesh::Mesh3d;
 
 use crate::cpu::canvas::CanvasTarget;
@@ -79,20 +79,16 @@ pub(crate) fn may_be_empty(report: Res<FrameReport>) -> bool {
     report.errors.is_empty() && (report.visible == 0 || report.lights == 0)
 }
 
-const NO_LINES: &str = "a window does not show the lines of `Edges`; pictures that are taken do (`take_picture`)";
+const NO_LINES: &str = "a window does not show lines and points (`Edges`, `Lines3d`, `Show`); pictures that are taken do \
+                        (`take_picture`)";
 
-/// Logs once that a window does not show the lines of [`Edges`].
-pub(crate) fn log_edges(
-    edges: Query<(), With<Edges>>,
-    #[cfg(feature = "wgpu")] surface: Option<Res<SurfaceTarget>>,
-    canvas: Option<Res<CanvasTarget>>,
-    mut logged: ResMut<Logged>,
-) {
+/// Logs once that a window does not show the lines that there are.
+pub(crate) fn log_lines(world: &mut World) {
     #[cfg(feature = "wgpu")]
-    let is_window = canvas.is_some() || surface.is_some();
+    let is_window = world.contains_resource::<CanvasTarget>() || world.contains_resource::<SurfaceTarget>();
     #[cfg(not(feature = "wgpu"))]
-    let is_window = canvas.is_some();
-    if is_window && !edges.is_empty() && logged.is_new(NO_LINES) {
+    let is_window = world.contains_resource::<CanvasTarget>();
+    if is_window && crate::lines::has_lines(world) && world.resource_mut::<Logged>().is_new(NO_LINES) {
         log::warn!("{NO_LINES}");
     }
 }

@@ -28,9 +28,9 @@ enum Pending {
 
 impl PendingPicture {
     /// Starts to copy the newest headless picture; later frames do not change what arrives. It is as the drawer left it:
-    /// opaque, and without the lines of [`Edges`](halfway_lighting::Edges), which
-    /// [`take_picture`](crate::take_picture) and [`render_picture`](crate::render_picture) add. Cameras that
-    /// [keep](halfway_lighting::Load::Keep) what is there clear it.
+    /// opaque, and without lines and points, which [`take_picture`](crate::take_picture) and
+    /// [`render_picture`](crate::render_picture) add. Cameras that [keep](halfway_lighting::Load::Keep) what is there clear
+    /// it.
     ///
     /// In a system that runs before the frame of its update is drawn, in `Update` say, that is the picture of the update
     /// before: the log says so once. Ask after [`RenderSet::Deliver`](crate::RenderSet::Deliver), or after the update.

@@ -59,7 +59,7 @@ impl Plugin for RenderPlugin {
                     (
                         logged::log_errors,
                         logged::log_ineffective_opacity,
-                        logged::log_edges,
+                        logged::log_lines,
                         logged::log_why_empty.run_if(logged::may_be_empty),
                     )
                         .chain()

@@ -103,7 +103,7 @@ fn finished(world: &mut World) -> Result<Picture, RenderError> {
 /// Adds a camera's background, or what the part that it draws `kept`, and its lines to its picture.
 fn finish(world: &mut World, picture: &mut Picture, kept: Option<&Picture>) -> Result<(), RenderError> {
     background::put_behind(world, picture, kept)?;
-    if lines::are_there(world) {
+    if lines::has_lines(world) {
         lines::draw_over_frame(world, picture)?;
     }
     Ok(())

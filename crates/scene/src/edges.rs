@@ -3,7 +3,7 @@
 use std::ops::Bound::Included;
 
 use bevy_color::{ColorToComponents as _, LinearRgba};
-use halfway_lighting::{Choices, Edges, HiddenEdges, Range, WhichEdges};
+use halfway_lighting::{Choices, Edges, HiddenEdges, Range, WhichEdges, Width};
 
 use crate::check::Limits;
 use crate::keys::{Fill, Key, Keys, Object, Visit, Words, keys, named_words, words};
@@ -19,8 +19,8 @@ keys! {
         color: [f32; 3] = [0.0; 3] => Limits::Numbers(Range::CHANNEL),
         /// The opacity of the lines, 0 to 1.
         opacity: f32 = 1.0 => Limits::Numbers(Range::UNIT),
-        /// The width of the lines in pixels, above 0.
-        width: f32 = Edges::new(WhichEdges::SHARP).width => Limits::Numbers(Range::POSITIVE),
+        /// The width of the lines, above 0: pixels, or world units as in "0.01w".
+        width: Width = Edges::new(WhichEdges::SHARP).width => Limits::Numbers(Range::POSITIVE),
         /// The parts of edges that lie behind surfaces.
         hidden: HiddenEdges = HiddenEdges::default(),
         /// Whether the surface is drawn, too; false: a wireframe.

@@ -5,7 +5,9 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use bevy_color::ColorToComponents;
-use halfway_lighting::{Camera, Encoding, GlobalAmbient, Intensity, Range, Reflectance, Shading, Tolerance, Viewer};
+use halfway_lighting::{
+    Camera, Encoding, GlobalAmbient, Intensity, Range, Reflectance, Shading, Show, Tolerance, Viewer,
+};
 
 use crate::check::{Check, KeyProblem, Limits, Within};
 use crate::edges::EdgesEntry;
@@ -16,6 +18,7 @@ use crate::json;
 use crate::keys::{Object, keys};
 use crate::light::{AttachEntry, LightEntry};
 use crate::lights_entry::LightsEntry;
+use crate::lines::LineStyleEntry;
 use crate::mesh::MeshEntry;
 use crate::named::{NameOrIndex, check_names};
 use crate::object::ObjectEntry;
@@ -57,6 +60,11 @@ keys! {
         reflectance: Reflectance = Reflectance::default(),
         /// Lines along the edges of objects that name none; null: no lines.
         edges: Option<EdgesEntry> = None,
+        /// The looks of the lines and points of objects that name none; null: the default ones.
+        line_style: Option<LineStyleEntry> = None,
+        /// Lines that explain the scene, by their names: axes, normals, `face_normals`, lights, grid. Lengths follow the
+        /// scene; the ground is below it, as the camera's `up` has it.
+        show: Show = Show::default(),
         /// Light from all directions; null or left out: none.
         environment: Option<EnvironmentEntry> = None,
         /// The camera; null or left out: one that frames everything.

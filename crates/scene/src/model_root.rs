@@ -6,7 +6,7 @@ use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::prelude::*;
 use bevy_ecs::world::DeferredWorld;
 use bevy_transform::components::Transform;
-use halfway_asset::{Assets, Handle};
+use halfway_asset::Handle;
 use halfway_mesh::{LoadError, Mesh, Mesh3d};
 use thiserror::Error;
 
@@ -14,9 +14,9 @@ use crate::error::SceneError;
 use crate::mesh::MeshEntry;
 use crate::models::Shapes;
 use crate::object::ObjectEntry;
-use crate::spawn::{Handles, TextureHandles, spawn_own_lights, spawn_parts};
+use crate::spawn::{Handles, TextureHandles, has_mesh_assets, spawn_own_lights, spawn_parts};
 
-/// A model file as one entity: its meshes, with their materials and images, and its lights are children, each with its
+/// A model file as one entity: its meshes, with their materials and images, its lines and points and its lights are children, each with its
 /// `Name`. Despawning the entity despawns all of them.
 ///
 /// The file is loaded when the commands are applied, relative to the working directory. The entity then has
@@ -72,7 +72,7 @@ impl ModelParts {
         self.0.iter().filter(|part| part.name == name).find_map(|part| part.mesh.as_ref())
     }
 
-    /// All meshes, then all lights, in the order of the file, with their names.
+    /// All meshes, then lines and points, then all lights, in the order of the file, with their names.
     pub fn iter(&self) -> impl Iterator<Item = (&str, Entity)> {
         self.0.iter().map(|part| (part.name.as_str(), part.entity))
     }
@@ -154,7 +154,7 @@ fn load(mut world: DeferredWorld, HookContext { entity, .. }: HookContext) {
 
 /// Gives the root its children.
 fn fill(root: Entity, file: &Path, world: &mut World) -> Result<ModelParts, ModelError> {
-    if !world.contains_resource::<Assets<Mesh>>() {
+    if !has_mesh_assets(world) {
         return Err(SceneError::NoMeshAssets.into());
     }
     let object = ObjectEntry::new(MeshEntry::Path(file.to_owned()));

@@ -9,7 +9,7 @@ use bevy_color::LinearRgba;
 use bevy_math::Mat4;
 use bevy_transform::components::Transform;
 use halfway_asset::Handle;
-use halfway_mesh::{Mesh, Model, NormalReport, Normals, Property, SourceCamera, SourceMap, SourceMaterial};
+use halfway_mesh::{Lines, Mesh, Model, NormalReport, Normals, Property, SourceCamera, SourceMap, SourceMaterial};
 use halfway_texture::{FarNormals, MapKind, Pyramid, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::error::SceneError;
@@ -22,6 +22,7 @@ use halfway_lighting::{AlphaMode, Faces, LightComponent, Material};
 /// The mesh of an object.
 pub(crate) struct ObjectShape {
     pub(crate) parts: Vec<ShapePart>,
+    pub(crate) lines: Vec<ShapeLines>,
     pub(crate) lights: Vec<ShapeLight>,
     /// The model's cameras.
     pub(crate) cameras: Vec<SourceCamera>,
@@ -46,6 +47,15 @@ pub(crate) struct ShownScalars {
     pub(crate) map: ColorMap,
     /// The numbers at its ends; `None` where all are infinite or missing.
     pub(crate) range: Option<[f32; 2]>,
+}
+
+/// Lines and points of a shape, where they stand inside the object.
+pub(crate) struct ShapeLines {
+    pub(crate) name: String,
+    pub(crate) lines: Lines,
+    pub(crate) object_from_part: Mat4,
+    /// The model's own material.
+    pub(crate) own: Option<ModelMaterial>,
 }
 
 /// An image of a model's material, decoded, and the map that it is for, still without its handle.
@@ -112,7 +122,8 @@ impl<'a> Shapes<'a> {
         if object.material.is_some() || object.blend.is_some() {
             return;
         }
-        let own = shape.parts.iter().filter_map(|part| part.own.as_ref());
+        let of_lines = shape.lines.iter().filter_map(|lines| lines.own.as_ref());
+        let own = shape.parts.iter().filter_map(|part| part.own.as_ref()).chain(of_lines);
         let is_hidden = |own: &&ModelMaterial| own.material.opacity < 1.0 && own.alpha == AlphaMode::Opaque;
         let count = own.filter(is_hidden).count();
         if count > 0 {
@@ -138,6 +149,13 @@ impl<'a> Shapes<'a> {
                     let alpha = AlphaMode::default();
                     part.own = Some(ModelMaterial { material: *material, faces, shading: None, alpha });
                 }
+                let own = ModelMaterial {
+                    material: *material,
+                    faces: Faces::default(),
+                    alpha: AlphaMode::default(),
+                    shading: None,
+                };
+                shape.lines.iter_mut().for_each(|lines| lines.own = lines.own.or(Some(own)));
                 return Ok(shape);
             }
             MeshEntry::UvSphere(sphere) => Mesh::from(*sphere),
@@ -161,7 +179,7 @@ impl<'a> Shapes<'a> {
         self.warn_of_normals(&at, report);
         let (name, object_from_part) = (String::new(), Mat4::IDENTITY);
         let part = ShapePart { name, mesh, object_from_part, own: None, maps, scalars };
-        Ok(ObjectShape { parts: vec![part], lights: Vec::new(), cameras: Vec::new() })
+        Ok(ObjectShape { parts: vec![part], lines: Vec::new(), lights: Vec::new(), cameras: Vec::new() })
     }
 
     /// The image that displaces an object; of one that cannot be read there is a warning.
@@ -237,7 +255,13 @@ impl<'a> Shapes<'a> {
             let object_from_part = part.world_from_part;
             parts.push(ShapePart { name: part.name, mesh, object_from_part, own, maps: shown, scalars });
         }
-        Ok(ObjectShape { parts, lights, cameras: model.cameras })
+        let lines = model.lines.into_iter().map(|part| ShapeLines {
+            name: part.name,
+            lines: part.lines,
+            object_from_part: part.world_from_part,
+            own: part.material.and_then(|material| materials.get(material)).copied(),
+        });
+        Ok(ObjectShape { parts, lines: lines.collect(), lights, cameras: model.cameras })
     }
 
     fn material(&mut self, source: &SourceMaterial, at: String, index: usize) -> Result<ModelMaterial, SceneError> {

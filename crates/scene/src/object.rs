@@ -7,6 +7,7 @@ use crate::check::{Check, KeyProblem, Limits};
 use crate::displacement::DisplacementEntry;
 use crate::edges::EdgesEntry;
 use crate::keys::{Object, keys};
+use crate::lines::LineStyleEntry;
 use crate::maps::MapsEntry;
 use crate::material::MaterialEntry;
 use crate::mesh::MeshEntry;
@@ -56,6 +57,8 @@ keys! {
         /// The numbers of the layers that it belongs to, each 0 to 31: a camera sees the objects and lights that share a
         /// layer with it. null: 0.
         layers: Option<Vec<u32>> = None => LAYERS,
+        /// The looks of the model's lines and points; null: the scene's.
+        line_style: Option<LineStyleEntry> = None,
         /// How translation, rotation and scale change in time.
         animation: Vec<TrackEntry> = Vec::new(),
         [left out]

@@ -10,9 +10,9 @@ use bevy_ecs::prelude::*;
 use bevy_math::{DAffine3, Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_asset::{Assets, Handle};
-use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, Legend, VertexColors, ViewTolerance};
-use halfway_lighting::{Camera, Projection, Samples};
-use halfway_mesh::{Bounds, Mesh, Mesh3d};
+use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, Legend, Material, VertexColors, ViewTolerance};
+use halfway_lighting::{Camera, Projection, Samples, Show};
+use halfway_mesh::{Bounds, Lines, Lines3d, Mesh, Mesh3d};
 use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::animation::Animated;
@@ -20,12 +20,14 @@ use crate::defaults::{default_lights, framing_camera};
 use crate::edges::EdgesEntry;
 use crate::error::SceneError;
 use crate::file::SceneFile;
+use crate::import::ModelMaterial;
 use crate::import::{camera_place, model_camera};
 use crate::light::{AttachEntry, LightEntry};
 use crate::light_place::place;
 use crate::lights_entry::LightsEntry;
+use crate::lines::LineStyleEntry;
 use crate::material::MaterialEntry;
-use crate::models::{ModelMap, ObjectShape, ShapePart, Shapes};
+use crate::models::{ModelMap, ObjectShape, ShapeLines, ShapePart, Shapes};
 use crate::named::NameOrIndex;
 use crate::object::ObjectEntry;
 use crate::placement::Placement;
@@ -101,7 +103,7 @@ fn spawn_seen(
     world: &mut World,
 ) -> Result<Spawned, SceneError> {
     scene.validate()?;
-    if !world.contains_resource::<Assets<Mesh>>() {
+    if !has_mesh_assets(world) {
         return Err(SceneError::NoMeshAssets);
     }
     let has_images = |object: &ObjectEntry| object.maps.is_some() || object.scalars.is_some();
@@ -151,6 +153,11 @@ fn spawn_seen(
     }
     let is_animated = [&cameras[..], &frames, &lights].concat().iter().any(|entity| is_animated(*entity, world));
     Ok(Spawned { camera, cameras, objects: frames, lights, warnings, is_animated })
+}
+
+/// Whether there is somewhere to keep meshes, and lines.
+pub(crate) fn has_mesh_assets(world: &World) -> bool {
+    world.contains_resource::<Assets<Mesh>>() && world.contains_resource::<Assets<Lines>>()
 }
 
 pub(crate) type Object<'a> = (&'a ObjectEntry, Rc<ObjectShape>);
@@ -265,6 +272,9 @@ fn spawn_camera(
     insert_some(&mut entity, entry.tolerance);
     insert_some(&mut entity, viewport);
     insert_layers(&mut entity, entry.layers.as_ref());
+    insert_some(&mut entity, scene.line_style.as_ref().map(LineStyleEntry::component));
+    let show = Show { up: Vec3::from_array(entry.up), ..scene.show };
+    insert_some(&mut entity, Some(show).filter(Show::any));
     entity.id()
 }
 
@@ -278,27 +288,67 @@ const FRAMED_VERTICES: usize = 1 << 20;
 
 /// The vertices of all parts in the world, or, where they are many, the corners of the boxes around the parts.
 fn outline_of(objects: &[Object]) -> Vec<Vec3> {
-    let vertices: usize =
-        objects.iter().flat_map(|(_, shape)| &shape.parts).map(|part| part.mesh.positions().len()).sum();
-    let mut outline = Vec::new();
+    let mut outlined = Vec::new();
     for (object, shape) in objects {
         let world_from_object = object.transform.matrix().as_dmat4();
-        for part in &shape.parts {
-            let world_from_part = world_from_object * part.object_from_part.as_dmat4();
-            let to_world = |p: Vec3| world_from_part.transform_point3(p.as_dvec3()).as_vec3();
-            if vertices <= FRAMED_VERTICES {
-                outline.extend(part.mesh.positions().iter().copied().map(to_world));
-            } else {
-                outline.extend(corners(&part.mesh.bounds()).map(to_world));
+        let place = |object_from_part: &Mat4| DAffine3::from_mat4(world_from_object * object_from_part.as_dmat4());
+        outlined.extend(shape.parts.iter().map(|part| (Outlined::Mesh(&part.mesh), place(&part.object_from_part))));
+        outlined.extend(shape.lines.iter().map(|part| (Outlined::Lines(&part.lines), place(&part.object_from_part))));
+    }
+    outline_around(&outlined)
+}
+
+/// A shape that is framed.
+#[derive(Clone, Copy)]
+enum Outlined<'a> {
+    Mesh(&'a Mesh),
+    Lines(&'a Lines),
+}
+
+impl Outlined<'_> {
+    fn count(self) -> usize {
+        match self {
+            Self::Mesh(mesh) => mesh.positions().len(),
+            Self::Lines(lines) => 2 * lines.segments().len() + lines.points().len(),
+        }
+    }
+
+    fn bounds(self) -> Bounds {
+        match self {
+            Self::Mesh(mesh) => mesh.bounds(),
+            Self::Lines(lines) => lines.bounds(),
+        }
+    }
+
+    fn extend(self, outline: &mut Vec<Vec3>, to_world: impl Fn(Vec3) -> Vec3) {
+        match self {
+            Self::Mesh(mesh) => outline.extend(mesh.positions().iter().copied().map(to_world)),
+            Self::Lines(lines) => {
+                let used = lines.segments().as_flattened().iter().chain(lines.points());
+                outline.extend(used.map(|&vertex| to_world(lines.positions()[vertex as usize])));
             }
+        }
+    }
+}
+
+/// The vertices of all shapes in the world, or, where they are many, the corners of the boxes around them.
+fn outline_around(shapes: &[(Outlined, DAffine3)]) -> Vec<Vec3> {
+    let vertices: usize = shapes.iter().map(|(shape, _)| shape.count()).sum();
+    let mut outline = Vec::new();
+    for (shape, world_from_shape) in shapes {
+        let to_world = |p: Vec3| world_from_shape.transform_point3(p.as_dvec3()).as_vec3();
+        if vertices <= FRAMED_VERTICES {
+            shape.extend(&mut outline, to_world);
+        } else {
+            outline.extend(corners(&shape.bounds()).map(to_world));
         }
     }
     outline.retain(|point| point.is_finite());
     outline
 }
 
-/// The vertices of all meshes in a world, placed by their `Transform`s and those above them, or, where they are more than
-/// a million, the corners of the boxes around the meshes: what a [`Framing`](halfway_lighting::Framing) frames.
+/// The vertices of all meshes, lines and points in a world, placed by their `Transform`s and those above them, or, where
+/// they are more than a million, the corners of the boxes around the shapes: what a [`Framing`](halfway_lighting::Framing) frames.
 ///
 /// ```
 /// use bevy_app::App;
@@ -318,23 +368,15 @@ fn outline_of(objects: &[Object]) -> Vec<Vec3> {
 /// ```
 pub fn outline(world: &mut World) -> Vec<Vec3> {
     let mut objects = world.query::<(Entity, &Mesh3d)>();
-    let Some(meshes) = world.get_resource::<Assets<Mesh>>() else { return Vec::new() };
-    let placed: Vec<(&Mesh, DAffine3)> = objects
-        .iter(world)
-        .filter_map(|(entity, mesh)| Some((meshes.get(&mesh.0)?, world_from(entity, world))))
-        .collect();
-    let vertices: usize = placed.iter().map(|(mesh, _)| mesh.positions().len()).sum();
-    let mut outline = Vec::new();
-    for (mesh, world_from_mesh) in placed {
-        let to_world = |p: Vec3| world_from_mesh.transform_point3(p.as_dvec3()).as_vec3();
-        if vertices <= FRAMED_VERTICES {
-            outline.extend(mesh.positions().iter().copied().map(to_world));
-        } else {
-            outline.extend(corners(&mesh.bounds()).map(to_world));
-        }
-    }
-    outline.retain(|point| point.is_finite());
-    outline
+    let mut strokes = world.query::<(Entity, &Lines3d)>();
+    let (meshes, lines) = (world.get_resource::<Assets<Mesh>>(), world.get_resource::<Assets<Lines>>());
+    let of_mesh =
+        |(entity, mesh): (Entity, &Mesh3d)| Some((Outlined::Mesh(meshes?.get(&mesh.0)?), world_from(entity, world)));
+    let of_lines =
+        |(entity, shown): (Entity, &Lines3d)| Some((Outlined::Lines(lines?.get(&shown.0)?), world_from(entity, world)));
+    let shapes: Vec<_> =
+        objects.iter(world).filter_map(of_mesh).chain(strokes.iter(world).filter_map(of_lines)).collect();
+    outline_around(&shapes)
 }
 
 /// The placement of an entity by its transform and those of the entities above.
@@ -367,12 +409,14 @@ fn spawn_object(
 ) -> Entity {
     let name = object.name.clone().unwrap_or_else(|| format!("objects[{index}]"));
     let frame = spawn_frame(&Placement::from_matrix(&object.transform.matrix()), None, &name, world);
-    if let [part] = shape.parts.as_slice()
-        && part.object_from_part == Mat4::IDENTITY
-    {
-        dress_whole(object, part, (handles, textures), frame, world);
-    } else {
-        spawn_parts(object, frame, shape, (handles, textures), world);
+    match (shape.parts.as_slice(), shape.lines.as_slice()) {
+        ([part], []) if part.object_from_part == Mat4::IDENTITY => {
+            dress_whole(object, part, (handles, textures), frame, world);
+        }
+        ([], [lines]) if lines.object_from_part == Mat4::IDENTITY => dress_lines(object, lines, frame, world),
+        _ => {
+            spawn_parts(object, frame, shape, (handles, textures), world);
+        }
     }
     insert_some(&mut world.entity_mut(frame), Animated::object(&object.transform, &object.animation));
     frame
@@ -392,7 +436,41 @@ pub(crate) fn spawn_parts(
         dress_whole(object, part, (handles, textures), entity, world);
         entity
     };
-    shape.parts.iter().enumerate().map(spawn_part).collect()
+    let parts: Vec<Entity> = shape.parts.iter().enumerate().map(spawn_part).collect();
+    let spawn_lines = |(i, lines): (usize, &ShapeLines)| {
+        let name = if lines.name.is_empty() { format!("lines[{i}]") } else { lines.name.clone() };
+        let entity = spawn_frame(&Placement::from_matrix(&lines.object_from_part), Some(frame), &name, world);
+        dress_lines(object, lines, entity, world);
+        entity
+    };
+    let lines: Vec<Entity> = shape.lines.iter().enumerate().map(spawn_lines).collect();
+    [parts, lines].concat()
+}
+
+/// Gives an entity lines and points and their looks.
+fn dress_lines(object: &ObjectEntry, part: &ShapeLines, entity: Entity, world: &mut World) {
+    let handle = world.resource_mut::<Assets<Lines>>().add(part.lines.clone());
+    let entity = &mut world.entity_mut(entity);
+    entity.insert((Lines3d(handle), material_of(object, part.own)));
+    insert_some(entity, object.reflectance);
+    insert_some(entity, object.line_style.as_ref().map(LineStyleEntry::component));
+    insert_looks(object, part.own, entity);
+}
+
+/// The object's material, else the model's own, else the default one.
+fn material_of(object: &ObjectEntry, own: Option<ModelMaterial>) -> Material {
+    let given = object.material.as_ref().and_then(MaterialEntry::material);
+    let own = own.filter(|_| object.material.is_none());
+    given.or(own.map(|own| own.material)).unwrap_or_default()
+}
+
+/// The use of vertex colours and of opacity.
+fn insert_looks(object: &ObjectEntry, own: Option<ModelMaterial>, entity: &mut EntityWorldMut) {
+    // The default needs no component.
+    insert_some(entity, Some(object.vertex_colors).filter(|colors| *colors != VertexColors::default()));
+    let own = own.filter(|_| object.material.is_none());
+    let alpha = alpha(object, own.map(|own| own.alpha).unwrap_or_default());
+    insert_some(entity, Some(alpha).filter(|alpha| *alpha != AlphaMode::default()));
 }
 
 /// Gives an entity a part: its mesh, its looks and the images of its own material.
@@ -429,10 +507,8 @@ fn spawn_frame(placement: &Placement, parent: Option<Entity>, name: &str, world:
 /// Gives a part its mesh and its looks.
 fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mut EntityWorldMut) {
     let own = if object.material.is_some() { None } else { part.own };
-    let given = object.material.as_ref().and_then(MaterialEntry::material);
-    let material = given.or(own.map(|own| own.material)).unwrap_or_default();
     let faces = object.faces.or(own.map(|own| own.faces)).unwrap_or_default();
-    entity.insert((Mesh3d(mesh), material, faces));
+    entity.insert((Mesh3d(mesh), material_of(object, part.own), faces));
     insert_some(entity, object.back_material.as_ref().and_then(MaterialEntry::material).map(BackMaterial));
     insert_some(entity, object.shading.or(own.and_then(|own| own.shading)));
     insert_some(entity, object.tolerance);
@@ -441,10 +517,7 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     insert_some(entity, object.edges.as_ref().map(EdgesEntry::component));
     insert_layers(entity, object.layers.as_ref());
     insert_some(entity, object.solid.as_ref().map(|solid| solid.for_part(&part.object_from_part)));
-    // The default needs no component.
-    insert_some(entity, Some(object.vertex_colors).filter(|colors| *colors != VertexColors::default()));
-    let alpha = alpha(object, own.map(|own| own.alpha).unwrap_or_default());
-    insert_some(entity, Some(alpha).filter(|alpha| *alpha != AlphaMode::default()));
+    insert_looks(object, part.own, entity);
 }
 
 /// The effect of an object's opacity, by its keys `mask` and `blend` and by its model's own material.

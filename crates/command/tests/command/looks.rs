@@ -238,7 +238,7 @@ fn info_takes_several_models() {
     assert!(said.contains("normals    a made part's, creased at 32.5°"), "{said}");
     let table = succeeds(&folder, &["info", "--table", "step.obj", &teapot]);
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split('\t').collect()).collect();
-    assert!(rows.len() == 3 && rows.iter().all(|row| row.len() == 9), "{table}");
+    assert!(rows.len() == 3 && rows.iter().all(|row| row.len() == 11), "{table}");
 }
 
 #[test]

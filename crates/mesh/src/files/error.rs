@@ -96,8 +96,8 @@ pub enum LoadError {
         /// The fault of the mesh.
         source: MeshError,
     },
-    /// The file has no triangles.
-    #[error("{}: no triangles; at least one is expected{}", path.display(), in_brackets(skipped.as_ref()))]
+    /// The file has no triangles, no lines and no points.
+    #[error("{}: no triangles, lines or points; at least one is expected{}", path.display(), in_brackets(skipped.as_ref()))]
     NoTriangles {
         /// The file.
         path: PathBuf,

@@ -31,9 +31,9 @@ use source::Source;
 /// | extension | format | contents that are read |
 /// |---|---|---|
 /// | `smf` | Garland's SMF | vertices, triangles, scopes, transforms, bound normals, colours and texture coordinates; a part for each group |
-/// | `obj` | Wavefront OBJ with its MTL files | polygons, normals, texture coordinates, colours, smoothing groups, materials; a part for each name of an object or group and material |
-/// | `gltf`, `glb` | glTF 2.0 | the default scene: nodes, cameras, triangles, normals, tangents, the first texture coordinates and colours, metallic-roughness factors, `KHR_lights_punctual`, `KHR_mesh_quantization`; a part for each primitive of each node |
-/// | `ply` | PLY | polygons and strips, normals, texture coordinates and colours of vertices, as one part |
+/// | `obj` | Wavefront OBJ with its MTL files | polygons, lines, points, normals, texture coordinates, colours, smoothing groups, materials; a part for each name of an object or group and material |
+/// | `gltf`, `glb` | glTF 2.0 | the default scene: nodes, cameras, triangles, lines, points, normals, tangents, the first texture coordinates and colours, metallic-roughness factors, `KHR_lights_punctual`, `KHR_mesh_quantization`; a part for each primitive of each node |
+/// | `ply` | PLY | polygons, strips and edges, or points where there are none of them; normals, texture coordinates and colours of vertices; as one part |
 /// | `stl` | STL | triangles, with vertices at equal positions as one; a part for each solid |
 ///
 /// Polygons are cut into triangles, concave ones too. Files that a model refers to are read only from its own folder
@@ -59,7 +59,7 @@ use source::Source;
 ///
 /// # Errors
 /// The file is missing, empty, neither a regular file nor a named pipe, or of another format; it is malformed, where the error names the line
-/// or the element and what was expected there; or it holds no triangle.
+/// or the element and what was expected there; or it holds no triangle, no line and no point.
 pub fn load(path: &Path) -> Result<Model, LoadError> {
     load_with(path, LoadOptions::default(), &mut |_| ControlFlow::Continue(()))
 }
@@ -149,7 +149,7 @@ fn parse(format: Format, source: Source) -> Result<Model, LoadError> {
         Format::Ply => ply::parse(source),
         Format::Stl => stl::parse(source),
     }?;
-    if model.parts.is_empty() {
+    if model.is_empty() {
         let skipped = model.warnings.into_iter().next();
         return Err(LoadError::NoTriangles { path: path.to_owned(), skipped });
     }

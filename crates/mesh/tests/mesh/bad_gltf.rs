@@ -331,7 +331,12 @@ const ROWS: &[Row] = &[
         "\"count\":-3,\"min\"",
         "JSON: invalid value: integer `-3`, expected u64 at line 9 column",
     ),
-    ("no meshes shown", "{\"nodes\":[0]}", "{\"nodes\":[]}", ": no triangles; at least one is expected"),
+    (
+        "no meshes shown",
+        "{\"nodes\":[0]}",
+        "{\"nodes\":[]}",
+        ": no triangles, lines or points; at least one is expected",
+    ),
 ];
 
 #[test]

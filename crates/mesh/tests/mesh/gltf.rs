@@ -137,28 +137,15 @@ fn strips_fans_and_lists_become_triangles() {
         ("fan", 6, "", &[1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5, 0], 6, vec![format!("2 {smooth}")]),
         // Indices 1, 2, 3 of one byte each; the unused vertices are left out.
         ("indexed", 4, ",\"indices\":1", &[0, 1, 2], 3, vec![format!("2 {smooth}")]),
-        (
-            "points",
-            0,
-            "",
-            &[],
-            0,
-            vec!["meshes[0].primitives[0]: its mode, Points, is skipped".to_owned(), format!("1 {smooth}")],
-        ),
-        (
-            "line strip",
-            3,
-            "",
-            &[],
-            0,
-            vec!["meshes[0].primitives[0]: its mode, LineStrip, is skipped".to_owned(), format!("1 {smooth}")],
-        ),
+        ("points", 0, "", &[], 0, vec![format!("1 {smooth}")]),
+        ("line strip", 3, "", &[], 0, vec![format!("1 {smooth}")]),
     ];
     for (name, mode, indices, expected, vertices, warnings) in rows {
         let (json, data) = strip(mode, indices);
         let model = load_glb(&json, &data).unwrap();
         assert_eq!(model.warnings, warnings, "{name}");
         assert_eq!(model.parts.len(), 1 + usize::from(!expected.is_empty()), "{name}");
+        assert_eq!(model.lines.len(), usize::from(expected.is_empty()), "{name}");
         if !expected.is_empty() {
             assert_eq!(model.parts[0].mesh.indices(), expected, "{name}");
             assert_eq!(model.parts[0].mesh.positions().len(), vertices, "{name}");

@@ -7,6 +7,7 @@ mod common;
 mod displace;
 mod files;
 mod gltf;
+mod lines;
 mod lod;
 mod mesh;
 mod normals;

@@ -148,11 +148,7 @@ fn skipped_contents_give_warnings() {
         (
             "lines and points",
             format!("{SQUARE}l 1 2 3\np 1\np 2\nf 1 2 3\nf 1 2\n"),
-            &[
-                "model.obj:5: `l` is skipped",
-                "model.obj:6: `p` is skipped (and 1 more such lines)",
-                "model.obj:9: a face of fewer than three corners is skipped",
-            ],
+            &["model.obj:9: a face of fewer than three corners is skipped"],
         ),
         (
             "seven numbers",
@@ -224,7 +220,7 @@ fn skipped_contents_give_warnings() {
 fn malformed_files_are_refused_by_line() {
     const CORNERS: &str = "corners of the form v, v/vt, v//vn or v/vt/vn are expected";
     let with = |line: &str| format!("{SQUARE}{line}\n").into_bytes();
-    let rows: [(&str, Vec<u8>, String); 25] = [
+    let rows: [(&str, Vec<u8>, String); 27] = [
         ("two coordinates", b"v 0 0\n".into(), ":1: `v 0 0`; `v` and three numbers are expected".into()),
         ("five numbers", b"v 0 0 0 1 1\n".into(), ":1: `v 0 0 0 1 1`; `v` and three numbers are expected".into()),
         ("NaN position", with("v nan 0 0"), ":5: `nan` in `v`; a finite number is expected".into()),
@@ -275,9 +271,15 @@ fn malformed_files_are_refused_by_line() {
         ("beyond i64", with("f 1 2 9223372036854775808"), format!(":5: `9223372036854775808` in `f`; {CORNERS}")),
         ("no library", with("mtllib"), ":5: `mtllib`; `mtllib` and a file name is expected".into()),
         ("continued line", with("f 1 \\\n2 \\\n3\nf 1 2 9"), ":8: the position 9 in `f`; a position from 1 to 4, or from -4 to -1, is expected".into()),
-        ("no faces", with(""), ": no triangles; at least one is expected".into()),
-        ("a small face", with("f 1 2"), ": no triangles; at least one is expected (model.obj:5: a face of fewer than three corners is skipped)".into()),
-        ("lines alone", with("l 1 2"), ": no triangles; at least one is expected (model.obj:5: `l` is skipped)".into()),
+        ("no faces", with(""), ": no triangles, lines or points; at least one is expected".into()),
+        ("a small face", with("f 1 2"), ": no triangles, lines or points; at least one is expected (model.obj:5: a face of fewer than three corners is skipped)".into()),
+        ("a small line", with("l 1"), ": no triangles, lines or points; at least one is expected (model.obj:5: a line of fewer than two vertices is skipped)".into()),
+        (
+            "a line out of range",
+            with("l 1 2 9"),
+            ":5: the position 9 in `l`; a position from 1 to 4, or from -4 to -1, is expected".into(),
+        ),
+        ("a point by a name", with("p one"), ":5: `one` in `p`; vertices of the form v or v/vt are expected".into()),
         ("no number", b"v 0 0 caf\xE9\n".into(), ":1: `café` in `v`; a finite number is expected".into()),
     ];
     for (name, text, expected) in rows {

@@ -178,8 +178,11 @@ fn malformed_files_are_refused_by_line_or_element() {
             TRIANGLE.replace("3 0 1 2", "4000000000 0 1 2"),
             ":13: face 0, vertex_index: the end of the file; a number is expected",
         ),
-        ("no faces", TRIANGLE.replace("face 1", "face 0"), ": no triangles; at least one is expected"),
-        ("points", TRIANGLE.replace("vertex_index", "others"), ": no triangles; at least one is expected"),
+        (
+            "nothing",
+            TRIANGLE.replace("vertex 3", "vertex 0").replace("face 1", "face 0"),
+            ": no triangles, lines or points; at least one is expected",
+        ),
     ];
     for (name, text, expected) in rows {
         let message = message(text);

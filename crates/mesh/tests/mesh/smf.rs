@@ -247,8 +247,8 @@ fn malformed_files_are_refused_by_line() {
             format!("{start}f 1 2\n").into(),
             ":4: `f 1 2`; `f` and three vertex numbers, counted from 1, are expected",
         ),
-        ("no faces", start.into(), ": no triangles; at least one is expected"),
-        ("comments alone", b"# nothing\n\n".into(), ": no triangles; at least one is expected"),
+        ("no faces", start.into(), ": no triangles, lines or points; at least one is expected"),
+        ("comments alone", b"# nothing\n\n".into(), ": no triangles, lines or points; at least one is expected"),
         ("wrong UTF-8", b"v 0 0 0\nv 0 \xFF 0\n".into(), ":2: `ÿ` in `v`; a finite number is expected"),
     ];
     for (name, text, expected) in rows {

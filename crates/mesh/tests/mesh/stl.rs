@@ -107,7 +107,7 @@ fn malformed_files_are_refused() {
             "solid\nfacet normal 0 0 1\nouter loop\n".to_owned(),
             ":3: the end of the file inside a facet;",
         ),
-        ("no triangles", "solid\nendsolid\n".to_owned(), ": no triangles; at least one is expected"),
+        ("no triangles", "solid\nendsolid\n".to_owned(), ": no triangles, lines or points; at least one is expected"),
         ("something else", "v 0 0 0\n".to_owned(), ": STL: 8 bytes; `solid`, or at least 84 bytes, are expected"),
     ];
     for (name, text, expected) in rows {

@@ -7,8 +7,8 @@ use bevy_math::{DVec2, UVec2, Vec2Swizzles as _};
 pub(super) struct Segment {
     pub(super) from: DVec2,
     pub(super) to: DVec2,
-    /// In pixels.
-    pub(super) width: f64,
+    /// At both ends, in pixels; in between it changes evenly.
+    pub(super) widths: [f64; 2],
 }
 
 /// A pixel that a line reaches.
@@ -26,9 +26,9 @@ pub(super) struct Reached {
 impl Segment {
     /// Calls with each pixel of the picture that the line reaches. Its ends are round.
     pub(super) fn each(&self, size: UVec2, mut reach: impl FnMut(Reached)) {
-        let half = 0.5 * self.width;
+        let [first, last] = self.widths;
         // Beside the line by half its width and half a pixel there is nothing.
-        let margin = half + 1.0;
+        let margin = 0.5 * first.max(last) + 1.0;
         let way = self.to - self.from;
         let steep = way.y.abs() > way.x.abs();
         // Along the axis in which the line is longer: in each column of pixels, or row, it takes a short piece.
@@ -46,6 +46,7 @@ impl Segment {
             for row in pixels(y - across, y + across, size.y) {
                 let [x, y] = if steep { [row, column] } else { [column, row] };
                 let (distance, along) = self.nearest(DVec2::new(f64::from(x), f64::from(y)) + 0.5);
+                let half = 0.5 * (first + along * (last - first));
                 let coverage = (distance + 0.5).min(half) - (distance - 0.5).max(-half);
                 if coverage > 0.0 {
                     reach(Reached { x, y, coverage: coverage.min(1.0), along });
@@ -64,7 +65,7 @@ impl Segment {
 }
 
 /// The pixels of a row of `count` that an interval meets.
-fn pixels(from: f64, to: f64, count: f64) -> std::ops::Range<u32> {
+pub(super) fn pixels(from: f64, to: f64, count: f64) -> std::ops::Range<u32> {
     let [from, to] = [from.floor(), to.ceil()].map(|end| end.clamp(0.0, count) as u32);
     from..to.max(from)
 }
@@ -78,7 +79,7 @@ mod tests {
 
     fn covered(from: [f64; 2], to: [f64; 2], width: f64) -> HashMap<[u32; 2], f64> {
         let mut found = HashMap::new();
-        let line = Segment { from: from.into(), to: to.into(), width };
+        let line = Segment { from: from.into(), to: to.into(), widths: [width; 2] };
         line.each(SIZE, |Reached { x, y, coverage, .. }| {
             assert!(found.insert([x, y], coverage).is_none(), "({x}, {y}) twice");
         });

@@ -154,6 +154,7 @@ fn the_page_has_the_keys_defaults_and_ranges_of_the_schema() {
         differences(&table(&page, "## Objects", 0), &definitions["ObjectEntry"], "object"),
         differences(&table(&page, "### Edges", 0), &definitions["EdgesEntry"], "edges"),
         differences(&table(&page, "### Scalars", 0), &definitions["ScalarsEntry"], "scalars"),
+        differences(&table(&page, "### Lines and points", 0), &definitions["LineStyleEntry"], "line_style"),
         differences(&table(&page, "### Displacement", 0), &definitions["DisplacementEntry"], "displacement"),
         differences(&table(&page, "### Solids", 0), &definitions["SolidEntry"], "solid"),
         differences(&table(&page, "### Transforms", 0), &definitions["TransformParts"], "transform"),

@@ -52,13 +52,13 @@ fn read(bytes: &[u8], is_binary: bool, around: ModelFolder) -> Result<Model, Fau
     warnings.extend(of_images);
     let is_quantized = document.extensions_used().any(|extension| extension == QUANTIZATION);
     let mut primitives = Primitives::new(Accessors::new(&buffers, is_quantized));
-    let scene::Contents { parts, lights, cameras, mended } = scene::read(&document, &mut primitives)?;
+    let scene::Contents { parts, lines, lights, cameras, mended } = scene::read(&document, &mut primitives)?;
     if let Some((count, first)) = mended {
         let more = if count > 1 { format!(" (and {} more such matrices)", count - 1) } else { String::new() };
         warnings.push(format!("{first} is taken for 0, 0, 0, 1{more}"));
     }
     warnings.extend(primitives.into_warnings());
-    Ok(Model { parts, materials, lights, cameras, warnings, ..Model::default() })
+    Ok(Model { parts, lines, materials, lights, cameras, warnings, ..Model::default() })
 }
 
 fn open_container(bytes: &[u8]) -> Result<Glb<'_>, Fault> {

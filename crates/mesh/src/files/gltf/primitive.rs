@@ -10,34 +10,43 @@ use gltf::mesh::{Mode, Semantic};
 use super::accessor::{self, Accessors, Attribute, Items, Which};
 use super::fault::Fault;
 use crate::numbering::Numbering;
-use crate::{Mesh, MeshError};
+use crate::{Lines, Mesh, MeshError};
 
 /// Bytes of a vertex (position, normal, two uvs, colour, tangent) and of an index in a mesh.
 const VERTEX: usize = 72;
 const INDEX: usize = 4;
 
+/// The content of a primitive.
+#[derive(Clone)]
+pub(super) enum PrimitiveShape {
+    Mesh(Mesh),
+    Lines(Lines),
+}
+
 /// Makes meshes of primitives, each once, however many nodes show it.
 pub(super) struct Primitives<'a> {
     accessors: Accessors<'a>,
-    /// By the numbers of mesh and primitive; `None` where it has no triangles.
-    meshes: HashMap<(usize, usize), Option<Mesh>>,
+    /// By the numbers of mesh and primitive.
+    shapes: HashMap<(usize, usize), PrimitiveShape>,
     warnings: Vec<String>,
     without_normals: usize,
     with_targets: usize,
     with_more: usize,
     with_bad_tangents: usize,
+    with_idle_uvs: usize,
 }
 
 impl<'a> Primitives<'a> {
     pub(super) fn new(accessors: Accessors<'a>) -> Self {
         Self {
             accessors,
-            meshes: HashMap::new(),
+            shapes: HashMap::new(),
             warnings: Vec::new(),
             without_normals: 0,
             with_targets: 0,
             with_more: 0,
             with_bad_tangents: 0,
+            with_idle_uvs: 0,
         }
     }
 
@@ -60,6 +69,7 @@ impl<'a> Primitives<'a> {
                 "the tangents of ",
                 " primitives are skipped, since not all are of unit length with a sign of 1 or -1",
             ),
+            (self.with_idle_uvs, "the texture coordinates of ", " primitives of lines or points are skipped"),
         ] {
             if count > 0 {
                 warnings.push(format!("{before}{count}{after}"));
@@ -68,21 +78,20 @@ impl<'a> Primitives<'a> {
         warnings
     }
 
-    /// The mesh of a primitive, `None` where it is made of points or lines.
-    pub(super) fn mesh(&mut self, mesh: usize, primitive: &Primitive<'a>) -> Result<Option<Mesh>, Fault> {
+    /// The mesh of a primitive, or its lines or points.
+    pub(super) fn shape(&mut self, mesh: usize, primitive: &Primitive<'a>) -> Result<PrimitiveShape, Fault> {
         let key = (mesh, primitive.index());
-        if let Some(known) = self.meshes.get(&key) {
+        if let Some(known) = self.shapes.get(&key) {
             return Ok(known.clone());
         }
         let element = format!("meshes[{mesh}].primitives[{}]", primitive.index());
         let made = match primitive.mode() {
-            Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => Some(self.make(&element, primitive)?),
-            mode => {
-                self.warnings.push(format!("{element}: its mode, {mode:?}, is skipped"));
-                None
+            Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {
+                PrimitiveShape::Mesh(self.make(&element, primitive)?)
             }
+            _ => PrimitiveShape::Lines(self.make_lines(&element, primitive)?),
         };
-        self.meshes.insert(key, made.clone());
+        self.shapes.insert(key, made.clone());
         Ok(made)
     }
 
@@ -110,24 +119,69 @@ impl<'a> Primitives<'a> {
         let colors = attribute(Semantic::Colors(0), &accessor::COLOR, "colour")?;
         // Tangents of the file belong to normals of the file.
         let tangents = attribute(Semantic::Tangents, &accessor::TANGENT, "tangent")?.filter(|_| normals.is_some());
-        self.without_normals += usize::from(normals.is_none());
+        self.without_normals += usize::from(normals.is_none() && !is_lines(primitive.mode()));
         self.with_targets += usize::from(primitive.morph_targets().len() > 0);
         let is_more = |semantic| matches!(semantic, Semantic::TexCoords(2..) | Semantic::Colors(1..));
         self.with_more += usize::from(primitive.attributes().any(|(semantic, _)| is_more(semantic)));
         Ok(Attributes { normals, uvs, second_uvs, colors, tangents })
     }
 
-    fn make(&mut self, element: &str, primitive: &Primitive<'a>) -> Result<Mesh, Fault> {
-        let invalid = |source: MeshError| Fault::Mesh { element: element.to_owned(), source };
+    /// The positions of a primitive and its corners.
+    fn corners(&mut self, element: &str, primitive: &Primitive<'a>) -> Result<(Items<'a>, Vec<u32>), Fault> {
         let Some(positions) = primitive.get(&Semantic::Positions) else {
             return Err(Fault::element(element, "no POSITION", "positions are"));
         };
         let positions = self.accessors.attribute(&positions, &accessor::POSITION)?;
-        let vertices = positions.count;
         let corners = match primitive.indices() {
             Some(indices) => self.accessors.indices(&indices)?,
-            None => (0..vertices as u32).collect(),
+            None => (0..positions.count as u32).collect(),
         };
+        Ok((positions, corners))
+    }
+
+    fn make_lines(&mut self, element: &str, primitive: &Primitive<'a>) -> Result<Lines, Fault> {
+        let invalid = |source: MeshError| Fault::Mesh { element: element.to_owned(), source };
+        let (positions, corners) = self.corners(element, primitive)?;
+        let vertices = positions.count;
+        let is_cloud = primitive.mode() == Mode::Points;
+        let (number_of, uses) = if is_cloud { (1, corners) } else { (2, ends(primitive.mode(), &corners)) };
+        if let Some(at) = uses.iter().position(|&index| index as usize >= vertices) {
+            let element = if is_cloud { "point" } else { "line" };
+            return Err(invalid(MeshError::NoSuchVertex {
+                element,
+                number: at / number_of,
+                index: uses[at],
+                vertices,
+            }));
+        }
+        let (which, numbers) = used_vertices(uses, vertices).map_err(invalid)?;
+        let used = match &which {
+            Which::All => vertices,
+            Which::These(these) => these.len(),
+        };
+        self.accessors.spend(&|| element.to_owned(), used * VERTEX + numbers.len() * INDEX)?;
+        let Attributes { normals, uvs, colors, .. } = self.attributes(element, primitive, vertices)?;
+        self.with_idle_uvs += usize::from(uvs.is_some());
+        let positions = positions.floats(&which, Vec3::from_array);
+        let lines = if is_cloud {
+            Lines::new(positions, Vec::new(), numbers)
+        } else {
+            Lines::new(positions, numbers.as_chunks().0.to_vec(), Vec::new())
+        };
+        let mut lines = lines.map_err(invalid)?;
+        if let Some(normals) = normals {
+            lines = lines.with_normals(normals.floats(&which, Vec3::from_array)).map_err(invalid)?;
+        }
+        if let Some(colors) = colors {
+            lines = lines.with_colors(rgba(&colors, &which)).map_err(invalid)?;
+        }
+        Ok(lines)
+    }
+
+    fn make(&mut self, element: &str, primitive: &Primitive<'a>) -> Result<Mesh, Fault> {
+        let invalid = |source: MeshError| Fault::Mesh { element: element.to_owned(), source };
+        let (positions, corners) = self.corners(element, primitive)?;
+        let vertices = positions.count;
         let indices = triangles(primitive.mode(), corners);
         let (which, indices) = used_vertices(indices, vertices).map_err(invalid)?;
         let used = match &which {
@@ -186,6 +240,23 @@ fn is_tangent(tangent: &Vec4) -> bool {
     (tangent.truncate().length() - 1.0).abs() < 0.02 && (tangent.w.abs() - 1.0).abs() < f32::EPSILON
 }
 
+fn is_lines(mode: Mode) -> bool {
+    matches!(mode, Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip)
+}
+
+/// The two ends of each line that a primitive's corners make (glTF 2.0 §3.7.2.1). A last corner without another, and
+/// the loop of a single corner, make none.
+fn ends(mode: Mode, corners: &[u32]) -> Vec<u32> {
+    if mode == Mode::Lines {
+        return corners.as_chunks::<2>().0.as_flattened().to_vec();
+    }
+    let mut ends: Vec<u32> = corners.windows(2).flatten().copied().collect();
+    if let (Mode::LineLoop, [first, .., last]) = (mode, corners) {
+        ends.extend([*last, *first]);
+    }
+    ends
+}
+
 /// The corners of the triangles that a primitive's corners make (glTF 2.0 §3.7.2.1).
 fn triangles(mode: Mode, corners: Vec<u32>) -> Vec<u32> {
     match mode {
@@ -240,6 +311,17 @@ mod tests {
             for few in 0..3 {
                 assert!(triangles(mode, (0..few).collect()).is_empty());
             }
+        }
+    }
+
+    #[test]
+    fn lines_strips_and_loops() {
+        let corners = [4, 5, 6];
+        assert_eq!(ends(Mode::Lines, &corners), [4, 5]);
+        assert_eq!(ends(Mode::LineStrip, &corners), [4, 5, 5, 6]);
+        assert_eq!(ends(Mode::LineLoop, &corners), [4, 5, 5, 6, 6, 4]);
+        for mode in [Mode::Lines, Mode::LineStrip, Mode::LineLoop] {
+            assert!(ends(mode, &[]).is_empty() && ends(mode, &[4]).is_empty());
         }
     }
 

@@ -7,8 +7,8 @@ use gltf::scene::Transform;
 use gltf::{Document, Node};
 
 use super::fault::{Fault, check_finite};
-use super::primitive::Primitives;
-use crate::{Part, SourceCamera, SourceLight, SourceLightKind, SourceProjection};
+use super::primitive::{PrimitiveShape, Primitives};
+use crate::{LinePart, Part, SourceCamera, SourceLight, SourceLightKind, SourceProjection};
 
 /// The most parts made of one file: nodes and primitives multiply.
 const MOST_PARTS: usize = 1 << 18;
@@ -21,6 +21,7 @@ const ROUNDED: f32 = 1e-5;
 #[derive(Default)]
 pub(super) struct Contents {
     pub(super) parts: Vec<Part>,
+    pub(super) lines: Vec<LinePart>,
     pub(super) lights: Vec<SourceLight>,
     pub(super) cameras: Vec<SourceCamera>,
     /// How many matrices had a last row that was corrected, and the first of them.
@@ -81,19 +82,21 @@ impl<'a> SceneReader<'_, 'a> {
         }
         if let Some(mesh) = node.mesh() {
             for primitive in mesh.primitives() {
-                let Some(shown) = self.primitives.mesh(mesh.index(), &primitive)? else {
-                    continue;
-                };
-                if self.contents.parts.len() == MOST_PARTS {
+                let shape = self.primitives.shape(mesh.index(), &primitive)?;
+                if self.contents.parts.len() + self.contents.lines.len() == MOST_PARTS {
                     let found = format!("more than {MOST_PARTS} primitives shown");
                     return Err(Fault::element(element(), found, "fewer are"));
                 }
-                self.contents.parts.push(Part {
-                    name: node.name().or(mesh.name()).unwrap_or_default().to_owned(),
-                    mesh: shown,
-                    material: primitive.material().index(),
-                    world_from_part: world,
-                });
+                let name = node.name().or(mesh.name()).unwrap_or_default().to_owned();
+                let (material, world_from_part) = (primitive.material().index(), world);
+                match shape {
+                    PrimitiveShape::Mesh(mesh) => {
+                        self.contents.parts.push(Part { name, mesh, material, world_from_part });
+                    }
+                    PrimitiveShape::Lines(lines) => {
+                        self.contents.lines.push(LinePart { name, lines, material, world_from_part });
+                    }
+                }
             }
         }
         Ok(world_from_node)

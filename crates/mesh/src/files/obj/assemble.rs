@@ -9,7 +9,7 @@ use crate::classes::Classes;
 use crate::files::LoadError;
 use crate::normals::{Smoothed, grouped_normals};
 use crate::numbering::{DistinctKeys, Numbering, position_key};
-use crate::{Mesh, MeshError, NormalWeighting, Part};
+use crate::{LinePart, Lines, Mesh, MeshError, NormalWeighting, Part};
 
 /// The vertices that faces refer to.
 #[derive(Default)]
@@ -28,7 +28,7 @@ impl ObjVertices {
     }
 }
 
-/// A part under construction: the faces of one name and material.
+/// A part under construction: the faces, lines and points of one name and material.
 pub(super) struct Draft {
     name: String,
     pub(super) material: Option<String>,
@@ -37,11 +37,52 @@ pub(super) struct Draft {
     indices: Vec<u32>,
     /// The smoothing group of each triangle; triangles beyond the end have group 0.
     groups: Vec<u32>,
+    /// The positions, numbered from 1, of the ends of lines, and of points.
+    pub(super) segments: Vec<[u32; 2]>,
+    pub(super) points: Vec<u32>,
 }
 
 impl Draft {
     pub(super) fn new(name: String, material: Option<String>) -> Self {
-        Self { name, material, corners: DistinctKeys::default(), indices: Vec::new(), groups: Vec::new() }
+        Self {
+            name,
+            material,
+            corners: DistinctKeys::default(),
+            indices: Vec::new(),
+            groups: Vec::new(),
+            segments: Vec::new(),
+            points: Vec::new(),
+        }
+    }
+
+    pub(super) fn has_triangles(&self) -> bool {
+        !self.indices.is_empty()
+    }
+
+    pub(super) fn has_lines(&self) -> bool {
+        !(self.segments.is_empty() && self.points.is_empty())
+    }
+
+    /// Its lines and points; all indices have been checked.
+    pub(super) fn line_part(
+        &self,
+        path: &Path,
+        vertices: &ObjVertices,
+        material: Option<usize>,
+    ) -> Result<LinePart, LoadError> {
+        let Self { name, segments, points, .. } = self;
+        let refused = |source| LoadError::Mesh { path: path.to_owned(), element: format!("`{name}`"), source };
+        let uses: Vec<u32> = segments.iter().flatten().chain(points).copied().collect();
+        let used = Numbering::new(uses.len(), |i| [uses[i]]);
+        let sources: Vec<usize> = used.firsts.iter().map(|&first| uses[first as usize] as usize - 1).collect();
+        let (ends, points) = used.numbers.split_at(2 * segments.len());
+        let positions = sources.iter().map(|&source| vertices.positions[source]).collect();
+        let mut lines = Lines::new(positions, ends.as_chunks().0.to_vec(), points.to_vec()).map_err(refused)?;
+        if !vertices.colors.is_empty() {
+            let color = |source: &usize| vertices.colors.get(*source).unwrap_or(&Vec3::ONE).extend(1.0);
+            lines = lines.with_colors(sources.iter().map(color).collect()).map_err(refused)?;
+        }
+        Ok(LinePart { name: name.clone(), lines, material, world_from_part: Mat4::IDENTITY })
     }
 
     pub(super) fn triangle(&mut self, corners: [[u32; 3]; 3], group: u32) {

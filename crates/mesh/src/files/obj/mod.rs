@@ -15,7 +15,7 @@ use super::text::{Skipped, Statement, Statements, abridged};
 use super::{LoadError, polygon};
 use crate::{Model, SourceMaterial};
 
-/// Reads vertices, polygons, groups, smoothing groups and materials; other statements are skipped with a warning. A
+/// Reads vertices, polygons, lines, points, groups, smoothing groups and materials; other statements are skipped with a warning. A
 /// missing MTL file is a warning, a malformed one an error.
 pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let path = source.path;
@@ -34,12 +34,17 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     obj.warn_of_unknown_materials(&named);
     let Obj { vertices, drafts, smoothing, skipped, .. } = obj;
     warnings.splice(0..0, skipped.warnings(path));
-    let used: Vec<_> = drafts.iter().map(|draft| draft.material.as_deref().and_then(|name| named.find(name))).collect();
+    let material_of = |draft: &Draft| draft.material.as_deref().and_then(|name| named.find(name));
+    let with_lines = drafts.iter().filter(|draft| draft.has_lines());
+    let lines = with_lines.map(|draft| draft.line_part(path, &vertices, material_of(draft)));
+    let lines = lines.collect::<Result<_, _>>()?;
+    let drafts: Vec<Draft> = drafts.into_iter().filter(Draft::has_triangles).collect();
+    let used: Vec<_> = drafts.iter().map(material_of).collect();
     let mut parts = assemble::parts(drafts, path, &vertices, smoothing.is_some(), &mut warnings)?;
     for (part, material) in parts.iter_mut().zip(used) {
         part.material = material;
     }
-    Ok(Model { parts, materials, warnings, ..Model::default() })
+    Ok(Model { parts, lines, materials, warnings, ..Model::default() })
 }
 
 /// The indices of a face's corner: keyword and meaning.
@@ -52,6 +57,8 @@ const CORNERS: &str = "corners of the form v, v/vt, v//vn or v/vt/vn are";
 #[derive(Clone, Copy, Debug)]
 struct ForwardReference {
     line: usize,
+    /// The keyword of its statement.
+    keyword: &'static str,
     index: i64,
 }
 
@@ -95,6 +102,8 @@ impl Obj {
                 self.vertices.normals.push(Vec3::new(x, y, z));
             }
             "f" | "fo" => self.face(statement)?,
+            "l" => self.line(statement)?,
+            "p" => self.points(statement)?,
             "o" | "g" => {
                 statement.rest.clone_into(&mut self.name);
                 self.current = None;
@@ -192,6 +201,45 @@ impl Obj {
         Ok(())
     }
 
+    /// `l`: a line through all its vertices.
+    fn line(&mut self, statement: &Statement) -> Result<(), LoadError> {
+        let vertices = self.named_vertices(statement)?;
+        if vertices.len() < 2 {
+            self.skipped.add(statement.line, "a line of fewer than two vertices is skipped");
+            return Ok(());
+        }
+        let draft = self.draft();
+        self.drafts[draft].segments.extend(vertices.array_windows());
+        Ok(())
+    }
+
+    /// `p`: each of its vertices is a point.
+    fn points(&mut self, statement: &Statement) -> Result<(), LoadError> {
+        let vertices = self.named_vertices(statement)?;
+        if !vertices.is_empty() {
+            let draft = self.draft();
+            self.drafts[draft].points.extend(vertices);
+        }
+        Ok(())
+    }
+
+    /// The positions, numbered from 1, that a line or points name, as `v` or `v/vt`.
+    fn named_vertices(&mut self, statement: &Statement) -> Result<Vec<u32>, LoadError> {
+        let mut vertices = Vec::new();
+        let mut has_uvs = false;
+        for word in statement.words() {
+            let (vertex, uv) = word.split_once('/').map_or((word, ""), |(vertex, uv)| (vertex, uv));
+            let index =
+                vertex.parse().map_err(|_| statement.unexpected_word(word, "vertices of the form v or v/vt are"))?;
+            vertices.push(self.absolute(statement, 0, index)?);
+            has_uvs |= !uv.is_empty();
+        }
+        if has_uvs {
+            self.skipped.add(statement.line, "texture coordinates of lines are skipped");
+        }
+        Ok(vertices)
+    }
+
     /// The index of the draft for the current name and material.
     fn draft(&mut self) -> usize {
         if let Some(current) = self.current {
@@ -242,13 +290,18 @@ impl Obj {
     /// A negative index counts back from the last one defined; 0 is none.
     fn absolute(&mut self, statement: &Statement, kind: usize, index: i64) -> Result<u32, LoadError> {
         let count = self.vertices.counts()[kind] as i64;
+        let keyword = match statement.keyword {
+            "l" => "l",
+            "p" => "p",
+            _ => "f",
+        };
         let absolute = match index {
             1.. => index,
             _ if index < 0 && index >= -count => count + 1 + index,
-            _ => return Err(out_of_range(statement.path, statement.line, kind, index, count)),
+            _ => return Err(out_of_range(statement.path, (statement.line, keyword), kind, index, count)),
         };
         if absolute > count && self.forward[kind].is_none_or(|furthest| absolute > furthest.index) {
-            self.forward[kind] = Some(ForwardReference { line: statement.line, index });
+            self.forward[kind] = Some(ForwardReference { line: statement.line, keyword, index });
         }
         // An index beyond 32 bits is beyond every count, which the check of forward references reports.
         Ok(u32::try_from(absolute).unwrap_or(u32::MAX))
@@ -257,10 +310,10 @@ impl Obj {
     /// Checks the largest reference of each kind, which bounds the others.
     fn check_forward_references(&self, path: &Path) -> Result<(), LoadError> {
         for (kind, count) in self.vertices.counts().into_iter().enumerate() {
-            if let Some(ForwardReference { line, index }) =
+            if let Some(ForwardReference { line, keyword, index }) =
                 self.forward[kind].filter(|found| found.index > count as i64)
             {
-                return Err(out_of_range(path, line, kind, index, count as i64));
+                return Err(out_of_range(path, (line, keyword), kind, index, count as i64));
             }
         }
         Ok(())
@@ -330,12 +383,12 @@ fn before_comment(name: &str) -> &str {
     name.split_once(" #").map_or(name, |(name, _)| name.trim_ascii_end())
 }
 
-fn out_of_range(path: &Path, line: usize, kind: usize, index: i64, count: i64) -> LoadError {
+fn out_of_range(path: &Path, (line, statement): (usize, &str), kind: usize, index: i64, count: i64) -> LoadError {
     let (keyword, name) = REFERRED[kind];
     LoadError::Line {
         path: path.to_owned(),
         line,
-        found: format!("the {name} {index} in `f`"),
+        found: format!("the {name} {index} in `{statement}`"),
         expected: match count {
             0 => format!("a {name} that a `{keyword}` defines is"),
             _ => format!("a {name} from 1 to {count}, or from -{count} to -1, is"),

@@ -11,10 +11,11 @@ use super::source::{Source, stem};
 use super::srgb::decoded;
 use super::text::abridged;
 use super::{LoadError, polygon};
-use crate::{Mesh, Model, Part, Property, ScalarValues};
+use crate::{LinePart, Lines, Mesh, Model, Part, Property, ScalarValues};
 
-/// Reads `vertex` (positions, normals, colours, texture coordinates), `face` and `tristrips`; other numbers of vertices and
-/// faces become properties, and all else is skipped with a warning.
+/// Reads `vertex` (positions, normals, colours, texture coordinates), `face`, `tristrips` and `edge`; other numbers of
+/// vertices and faces become properties, and all else is skipped with a warning. Where nothing joins the vertices they are
+/// points.
 pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let Source { path, mut reader, .. } = source;
     let header = header::parse(&mut reader)?;
@@ -25,6 +26,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
             "vertex" => shape.vertices(element, &mut values)?,
             "face" => shape.faces(element, &mut values)?,
             "tristrips" => shape.strips(element, &mut values)?,
+            "edge" => shape.edges(element, &mut values)?,
             _ => {
                 let name = abridged(&element.name, "");
                 shape.warnings.push(format!("the {} elements `{name}` are skipped", element.count));
@@ -32,6 +34,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
             }
         }
     }
+    let lines = shape.lines(path)?;
     let PlyContent { positions, normals, uvs, colors, indices, mut warnings, crossed, small, mut properties, .. } =
         shape;
     for (count, what) in [
@@ -43,7 +46,11 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
         }
     }
     if indices.is_empty() {
-        return Ok(Model { warnings, ..Model::default() });
+        if !properties.is_empty() {
+            let names: Vec<_> = properties.iter().map(|property| format!("`{}`", property.name)).collect();
+            warnings.push(format!("the properties {} of lines and points are skipped", names.join(", ")));
+        }
+        return Ok(Model { lines, warnings, ..Model::default() });
     }
     let refused = |source| LoadError::Mesh { path: path.to_owned(), element: "mesh".to_owned(), source };
     let (mut mesh, report) = Mesh::from_parts_reported(positions, normals, uvs, indices).map_err(refused)?;
@@ -61,7 +68,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     }
     let properties = properties.into();
     let part = Part { name: stem(path), mesh, material: None, world_from_part: Mat4::IDENTITY };
-    Ok(Model { parts: vec![part], warnings, properties, ..Model::default() })
+    Ok(Model { parts: vec![part], lines, warnings, properties, ..Model::default() })
 }
 
 /// The vertex properties that are read, in the order of a vertex's slots.
@@ -83,6 +90,9 @@ const SLOTS: [&[&str]; 12] = [
 /// The names of the face property that lists the corners.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
+/// The edge properties for its two ends.
+const ENDS: [&str; 2] = ["vertex1", "vertex2"];
+
 #[derive(Default)]
 struct PlyContent {
     positions: Vec<Vec3>,
@@ -90,6 +100,7 @@ struct PlyContent {
     uvs: Option<Vec<Vec2>>,
     colors: Option<Vec<Vec4>>,
     indices: Vec<u32>,
+    segments: Vec<[u32; 2]>,
     /// The corners of the face being read, and their positions.
     corners: Vec<u32>,
     points: Vec<Vec3>,
@@ -203,6 +214,64 @@ impl PlyContent {
             }
             Ok(())
         })
+    }
+
+    fn edges(&mut self, element: &Element, values: &mut Values) -> Result<(), LoadError> {
+        let end_of = |property: &PropertyType| {
+            ENDS.iter()
+                .position(|name| property.name == *name && property.list.is_none() && !property.scalar.is_float())
+        };
+        let ends: Vec<Option<usize>> = element.properties.iter().map(end_of).collect();
+        if ![0, 1].iter().all(|end| ends.contains(&Some(*end))) {
+            self.warnings.push(format!("the {} elements `edge` are skipped", element.count));
+            return skip_all(element, values);
+        }
+        self.warn_of_skipped(element, |i| ends[i].is_some());
+        for number in 0..element.count {
+            let mut segment = [0; 2];
+            for (property, end) in element.properties.iter().zip(&ends) {
+                let place = ElementProperty { element: &element.name, number, property: &property.name };
+                let Some(end) = *end else {
+                    skip(property, place, values)?;
+                    continue;
+                };
+                let vertex = values.next(property.scalar, place)?;
+                if !(0.0..f64::from(u32::MAX)).contains(&vertex) {
+                    return Err(values.error(place, &format!("{vertex}"), "a vertex, counted from 0, is"));
+                }
+                segment[end] = vertex as u32;
+                if segment[end] as usize >= self.positions.len() {
+                    return Err(outside(values, place, segment[end], self.positions.len()));
+                }
+            }
+            self.segments.push(segment);
+        }
+        Ok(())
+    }
+
+    /// The edges; all vertices as points where there are neither edges nor faces.
+    fn lines(&mut self, path: &std::path::Path) -> Result<Vec<LinePart>, LoadError> {
+        let is_cloud = self.segments.is_empty() && self.indices.is_empty();
+        if self.segments.is_empty() && !is_cloud || self.positions.is_empty() {
+            return Ok(Vec::new());
+        }
+        let refused = |source| LoadError::Mesh { path: path.to_owned(), element: "vertices".to_owned(), source };
+        let made = if is_cloud {
+            Lines::cloud(self.positions.clone())
+        } else {
+            Lines::new(self.positions.clone(), std::mem::take(&mut self.segments), Vec::new())
+        };
+        let mut lines = made.map_err(refused)?;
+        if let Some(normals) = self.normals.clone() {
+            lines = lines.with_normals(normals).map_err(refused)?;
+        }
+        if let Some(colors) = self.colors.clone() {
+            lines = lines.with_colors(colors).map_err(refused)?;
+        }
+        if self.uvs.is_some() && self.indices.is_empty() {
+            self.warnings.push("texture coordinates of lines and points are skipped".to_owned());
+        }
+        Ok(vec![LinePart { name: stem(path), lines, material: None, world_from_part: Mat4::IDENTITY }])
     }
 
     /// Reads the lists of corners and passes each on in `corners`.

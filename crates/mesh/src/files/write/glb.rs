@@ -10,8 +10,8 @@ use serde_json::{Map, Value, json};
 use super::file::{WriteError, replace};
 use super::quantise::{Grid, signed, unsigned};
 use crate::{
-    AlphaMode, GltfMaps, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight, SourceLightKind,
-    SourceMaterial, SourceProjection,
+    AlphaMode, Bounds, GltfMaps, LinePart, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera,
+    SourceLight, SourceLightKind, SourceMaterial, SourceProjection,
 };
 
 const FLOAT: u32 = 5126;
@@ -20,12 +20,18 @@ const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+/// Modes of primitives.
+const POINTS: u32 = 0;
+const LINES: u32 = 1;
 
-/// Writes a node for each part, light and camera; parts that share a mesh and a material share it in the file.
+/// Writes a node for each part, group of lines, light and camera; parts that share a mesh and a material share it in the file.
 pub(super) fn write(path: &Path, model: &Model, quantised: bool) -> Result<Vec<String>, WriteError> {
     let mut file = Document { quantised, ..Document::default() };
     for part in &model.parts {
         file.part(part);
+    }
+    for part in &model.lines {
+        file.lines(part);
     }
     file.lights(&model.lights);
     file.cameras(&model.cameras);
@@ -96,6 +102,48 @@ impl Document {
             primitive["material"] = json!(material);
         }
         self.meshes.push(json!({ "primitives": [primitive] }));
+        self.meshes.len() - 1
+    }
+
+    fn lines(&mut self, part: &LinePart) {
+        let key = (part.lines.address(), part.material);
+        let mesh = if let Some(&mesh) = self.written.get(&key) {
+            mesh
+        } else {
+            let mesh = self.line_mesh(part);
+            self.written.insert(key, mesh);
+            mesh
+        };
+        self.node(&part.name, part.world_from_part, "mesh", json!(mesh));
+    }
+
+    /// A primitive of lines and one of points, as far as there are any.
+    fn line_mesh(&mut self, part: &LinePart) -> usize {
+        let lines = &part.lines;
+        let positions = self.floats("VEC3", lines.positions().iter().map(Vec3::to_array));
+        let all = Bounds::from_points(lines.positions().iter().copied()).unwrap_or(lines.bounds());
+        self.accessors[positions]["min"] = json!(all.min.to_array());
+        self.accessors[positions]["max"] = json!(all.max.to_array());
+        let mut attributes = Map::new();
+        attributes.insert("POSITION".to_owned(), json!(positions));
+        if let Some(normals) = lines.normals() {
+            attributes.insert("NORMAL".to_owned(), json!(self.floats("VEC3", normals.iter().map(Vec3::to_array))));
+        }
+        if let Some(colors) = lines.colors() {
+            attributes.insert("COLOR_0".to_owned(), json!(self.floats("VEC4", colors.iter().map(Vec4::to_array))));
+        }
+        let mut primitives = Vec::new();
+        for (mode, indices) in [(LINES, lines.segments().as_flattened()), (POINTS, lines.points())] {
+            if !indices.is_empty() {
+                let indices = self.indices(indices, lines.positions().len());
+                let mut primitive = json!({ "mode": mode, "attributes": attributes, "indices": indices });
+                if let Some(material) = part.material {
+                    primitive["material"] = json!(material);
+                }
+                primitives.push(primitive);
+            }
+        }
+        self.meshes.push(json!({ "primitives": primitives }));
         self.meshes.len() - 1
     }
 

@@ -26,7 +26,7 @@ use crate::Model;
 /// # Errors
 /// An unknown extension, a model without parts, more than the format can count, or an error of the system.
 pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
-    if model.parts.is_empty() {
+    if model.is_empty() {
         return Err(WriteError::NoParts { path: path.to_owned() });
     }
     let mut lost = match Format::from_path(path) {
@@ -46,7 +46,7 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
 /// 40 % smaller.
 ///
 /// Positions are rounded to 65,536 steps along the longest edge of each mesh's box, normals, tangents and colours to
-/// 32,768 or more, texture coordinates to 65,536 where all of a mesh lie from 0 to 1. Returns the largest distance that
+/// 32,768 or more, texture coordinates to 65,536 where all of a mesh lie from 0 to 1. Lines and points stay as they are. Returns the largest distance that
 /// a position moved, in model space, and a sentence for each thing that the format cannot hold.
 ///
 /// ```
@@ -65,7 +65,7 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
 /// # Errors
 /// As [`write()`], and another extension than `glb`.
 pub fn write_quantised(path: &Path, model: &Model) -> Result<(f64, Vec<String>), WriteError> {
-    if model.parts.is_empty() {
+    if model.is_empty() {
         return Err(WriteError::NoParts { path: path.to_owned() });
     }
     if Format::from_path(path) != Some(Format::Glb) {

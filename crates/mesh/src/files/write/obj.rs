@@ -4,12 +4,14 @@ use std::collections::HashSet;
 use std::io::{self, Write};
 use std::path::Path;
 
+use glam::{Vec3, Vec4};
+
 use super::file::{WriteError, replace};
 use super::placed::{Placed, lost_in_text, upward};
 use crate::files::srgb::encoded;
-use crate::{Mesh, Model, MtlMaterial, SourceMaterial};
+use crate::{LinePart, Mesh, Model, MtlMaterial, SourceMaterial};
 
-/// Writes an object for each part, and an MTL file where there are materials.
+/// Writes an object for each part and each group of lines, and an MTL file where there are materials.
 pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
     let mut lost = lost_in_text(model);
     let names = unique_names(model);
@@ -21,6 +23,7 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
     }
     let renamed = model.materials.iter().zip(&names).filter(|(material, name)| material.name() != *name).count();
     let pbr = model.materials.iter().filter(|source| matches!(source, SourceMaterial::MetallicRoughness(_))).count();
+    let with_normals = model.lines.iter().filter(|part| part.lines.normals().is_some()).count();
     let distinct: HashSet<_> = model.parts.iter().map(|part| (one_line(&part.name), part.material)).collect();
     for (count, what) in [
         (
@@ -28,6 +31,7 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
             "parts have the name and the material of another, and will be read as one with it",
         ),
         (renamed, "materials get another name"),
+        (with_normals, "groups of lines lose their normals"),
         (pbr, "materials lose their metallic, roughness and alpha mode, and which faces they show"),
     ] {
         if count > 0 {
@@ -36,6 +40,8 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
     }
     let placed: Vec<Placed> =
         model.parts.iter().enumerate().map(|(i, part)| Placed::new(path, i, part)).collect::<Result<_, _>>()?;
+    let lines = model.lines.iter().enumerate();
+    let placed_lines = lines.map(|(i, part)| Placed::line_positions(path, i, part)).collect::<Result<Vec<_>, _>>()?;
     replace(path, |file| {
         if !model.materials.is_empty() {
             writeln!(file, "mtllib {}", library.file_name().unwrap_or_default().to_string_lossy())?;
@@ -52,15 +58,37 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
             }
             write_part(file, &part.mesh, placed, &mut first)?;
         }
+        for (part, positions) in model.lines.iter().zip(&placed_lines) {
+            writeln!(file, "o {}", one_line(&part.name))?;
+            if part.material != used {
+                let name = part.material.and_then(|material| names.get(material)).map_or("none", String::as_str);
+                writeln!(file, "usemtl {name}")?;
+                used = part.material;
+            }
+            write_lines(file, part, positions, &mut first)?;
+        }
         Ok(())
     })?;
     Ok(lost)
 }
 
-/// The vertices and faces of a part; `first` are the numbers of its first vertex and texture coordinate.
-fn write_part(file: &mut impl Write, mesh: &Mesh, placed: &Placed, first: &mut [u64; 2]) -> io::Result<()> {
-    for (i, p) in placed.positions.iter().enumerate() {
-        match mesh.colors() {
+/// The vertices, lines and points of a group.
+fn write_lines(file: &mut impl Write, part: &LinePart, positions: &[Vec3], first: &mut [u64; 2]) -> io::Result<()> {
+    write_positions(file, positions, part.lines.colors())?;
+    let number = |vertex: &u32| first[0] + u64::from(*vertex);
+    for [from, to] in part.lines.segments() {
+        writeln!(file, "l {} {}", number(from), number(to))?;
+    }
+    for point in part.lines.points() {
+        writeln!(file, "p {}", number(point))?;
+    }
+    first[0] += positions.len() as u64;
+    Ok(())
+}
+
+fn write_positions(file: &mut impl Write, positions: &[Vec3], colors: Option<&[Vec4]>) -> io::Result<()> {
+    for (i, p) in positions.iter().enumerate() {
+        match colors {
             None => writeln!(file, "v {} {} {}", p.x, p.y, p.z)?,
             Some(colors) => {
                 let [r, g, b] = colors[i].truncate().to_array().map(encoded);
@@ -68,6 +96,12 @@ fn write_part(file: &mut impl Write, mesh: &Mesh, placed: &Placed, first: &mut [
             }
         }
     }
+    Ok(())
+}
+
+/// The vertices and faces of a part; `first` are the numbers of its first vertex and texture coordinate.
+fn write_part(file: &mut impl Write, mesh: &Mesh, placed: &Placed, first: &mut [u64; 2]) -> io::Result<()> {
+    write_positions(file, &placed.positions, mesh.colors())?;
     for uv in mesh.uvs().unwrap_or_default() {
         writeln!(file, "vt {} {}", uv.x, upward(uv.y))?;
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::{DMat3, Mat4, Vec3};
 
 use super::file::WriteError;
-use crate::{Model, Part};
+use crate::{LinePart, Model, Part};
 
 /// The vertices of a part in world space.
 pub(super) struct Placed {
@@ -36,6 +36,20 @@ impl Placed {
         Ok(Self { normals: normals.iter().map(turn).collect(), positions, mirrored })
     }
 
+    /// The positions of lines and points in world space.
+    pub(super) fn line_positions(path: &Path, index: usize, part: &LinePart) -> Result<Vec<Vec3>, WriteError> {
+        if part.world_from_part == Mat4::IDENTITY {
+            return Ok(part.lines.positions().to_vec());
+        }
+        let world_from_part = part.world_from_part.as_dmat4();
+        let place = |p: &Vec3| world_from_part.transform_point3(p.as_dvec3()).as_vec3();
+        let positions: Vec<Vec3> = part.lines.positions().iter().map(place).collect();
+        if positions.iter().all(|p| p.is_finite()) {
+            return Ok(positions);
+        }
+        Err(WriteError::NotFinite { path: path.to_owned(), part: index })
+    }
+
     /// The corners of a triangle, swapped if mirrored so that its front stays in front.
     pub(super) fn triangle(&self, [a, b, c]: [u32; 3]) -> [u32; 3] {
         if self.mirrored { [a, c, b] } else { [a, b, c] }
@@ -57,7 +71,8 @@ pub(super) fn lost_in_text(model: &Model) -> Vec<String> {
     };
     let parts = &model.parts;
     add(
-        parts.iter().filter(|part| part.world_from_part != Mat4::IDENTITY).count(),
+        parts.iter().filter(|part| part.world_from_part != Mat4::IDENTITY).count()
+            + model.lines.iter().filter(|part| part.world_from_part != Mat4::IDENTITY).count(),
         "places of parts; their vertices are moved instead",
     );
     add(parts.iter().filter(|part| part.mesh.tangents().is_some()).count(), "parts lose their tangents");

@@ -54,6 +54,11 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
         Ok(())
     })?;
     let mut lost = lost_in_text(model);
+    for (count, what) in [(model.line_count(), "lines"), (model.point_count(), "points")] {
+        if count > 0 {
+            lost.push(format!("{count} {what}"));
+        }
+    }
     if !model.materials.is_empty() {
         lost.push(format!("{} materials", model.materials.len()));
     }
