@@ -82,7 +82,9 @@ impl Sharer {
 fn share(stage: &mut Stage, sharers: &[Sharer]) -> Vec<Entity> {
     let world = stage.world();
     let cameras: Vec<_> = world.query_filtered::<Entity, With<Camera>>().iter(world).collect();
-    cameras.into_iter().for_each(|camera| assert!(world.despawn(camera)));
+    for camera in cameras {
+        assert!(world.despawn(camera));
+    }
     sharers.iter().map(|sharer| stage.spawn(sharer.bundle())).collect()
 }
 
@@ -166,7 +168,9 @@ fn the_reference_draws_the_same_parts() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     stage.set(&scene());
     let mut sharers = sharers();
-    sharers.iter_mut().for_each(|sharer| sharer.camera.samples = Samples::One);
+    for sharer in &mut sharers {
+        sharer.camera.samples = Samples::One;
+    }
     share(&mut stage, &sharers);
     let Picture::Float(shared) = take(&mut stage, Pixels::Float) else { panic!("not a float") };
     let frame = FrameToDraw { number: 0, size: SIZE, pixels: Pixels::Float };
@@ -396,7 +400,9 @@ fn pictures_that_are_read_later_and_windows_show_all_cameras() {
         let (size, bytes) = stage.app.world().resource::<Canvas>().bytes().expect("a frame");
         assert!(size == SIZE && bytes == &taken.as_raw()[..]);
     }
-    cameras[1..].iter().for_each(|&camera| assert!(stage.world().despawn(camera)));
+    for &camera in &cameras[1..] {
+        assert!(stage.world().despawn(camera));
+    }
     stage.world().entity_mut(cameras[0]).remove::<Viewport>();
     assert_eq!(stage.frame().errors, []);
     let (size, bytes) = stage.app.world().resource::<Canvas>().bytes().expect("a frame");

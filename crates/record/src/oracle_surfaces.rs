@@ -1,7 +1,9 @@
-//! The surfaces that the reference renderer sees, for lines and quantities.
+//! The surfaces that the reference renderer sees, for lines and quantities, and the cameras that share its picture.
 
 use bevy_ecs::prelude::{Resource, World};
+use bevy_ecs::system::SystemState;
 use bevy_math::UVec2;
+use halfway_lighting::{SharedPart, SharingCameras};
 use halfway_reference::{Oracle, OracleError};
 use halfway_render::Surfaces;
 
@@ -17,4 +19,10 @@ pub(crate) fn surfaces(world: &mut World, size: UVec2) -> Result<Surfaces, Oracl
         Some((nearest.object, nearest.triangle?))
     });
     found.map_err(|_| OracleError::NoCamera)
+}
+
+/// The cameras that share a picture of this size.
+pub(crate) fn sharing(world: &mut World, size: UVec2) -> Vec<SharedPart> {
+    let mut cameras = SystemState::<SharingCameras>::new(world);
+    cameras.get(world).map(|cameras| cameras.parts(size.to_array())).unwrap_or_default()
 }

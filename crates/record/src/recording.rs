@@ -16,12 +16,11 @@ use halfway_render::{
 };
 use thiserror::Error;
 
-use crate::oracle_surfaces::{OracleFrame, surfaces};
+use crate::oracle_surfaces::{OracleFrame, sharing, surfaces};
 use crate::output::{
     AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, check_quantity_file, encode_picture,
     write_picture, write_quantities,
 };
-use crate::reference::sharing;
 
 /// Makes the target a texture of `size` pixels. Part of `HalfwayPlugins::headless`.
 ///

@@ -6,16 +6,13 @@ use std::ops::ControlFlow;
 use bevy_app::App;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::{Entity, Resource, World};
-use bevy_ecs::system::SystemState;
 use bevy_math::UVec2;
-use halfway_lighting::{
-    Camera, CameraTurn, Encoding, Intensity, Legend, Load, Samples, SharedPart, SharingCameras, current_camera,
-};
+use halfway_lighting::{Camera, CameraTurn, Encoding, Intensity, Legend, Load, Samples, SharedPart, current_camera};
 use halfway_reference::{Mode, Oracle, OracleError};
 use halfway_render::{Picture, Pixels, RenderError, draw_background, draw_kept, draw_legend, draw_lines, has_lines};
 use image::DynamicImage;
 
-use crate::oracle_surfaces::{OracleFrame, surfaces};
+use crate::oracle_surfaces::{OracleFrame, sharing, surfaces};
 use crate::recording::{FrameToDraw, RecordError};
 
 /// Draws frames with the reference renderer: in f64 on the CPU, without a graphics adapter.
@@ -136,12 +133,6 @@ fn add_legend(world: &mut World, picture: &mut Picture) {
     if let Some(legend) = world.get_resource::<Legend>() {
         draw_legend(picture, legend, encoding);
     }
-}
-
-/// The cameras that share a picture of this size.
-pub(crate) fn sharing(world: &mut World, size: UVec2) -> Vec<SharedPart> {
-    let mut cameras = SystemState::<SharingCameras>::new(world);
-    cameras.get(world).map(|cameras| cameras.parts(size.to_array())).unwrap_or_default()
 }
 
 /// How much of the background is seen in each pixel: what a white one adds to a black one.

@@ -88,7 +88,7 @@ pub(crate) fn log_lines(world: &mut World) {
     let is_window = world.contains_resource::<CanvasTarget>() || world.contains_resource::<SurfaceTarget>();
     #[cfg(not(feature = "wgpu"))]
     let is_window = world.contains_resource::<CanvasTarget>();
-    if is_window && crate::lines::has_lines(world) && world.resource_mut::<Logged>().is_new(NO_LINES) {
+    if is_window && crate::has_lines(world) && world.resource_mut::<Logged>().is_new(NO_LINES) {
         log::warn!("{NO_LINES}");
     }
 }

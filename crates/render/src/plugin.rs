@@ -80,7 +80,7 @@ pub(crate) fn add_drawers(app: &mut App, schedule: InternedScheduleLabel) {
             (
                 headless::measure.in_set(RenderSet::View).before(views::begin),
                 views::begin.in_set(RenderSet::View).before(ReadCamera),
-                views::draw_further.in_set(RenderSet::Deliver).run_if(Views::are_there),
+                (make_further_camera, views::draw_further).chain().in_set(RenderSet::Deliver).run_if(Views::are_there),
                 (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
             ),
         );
@@ -89,14 +89,18 @@ pub(crate) fn add_drawers(app: &mut App, schedule: InternedScheduleLabel) {
     gpu::plugin::add(app, schedule);
 }
 
-/// The schedule of the cameras after the first. Most Apps never need it.
-pub(crate) fn further_camera() -> Option<Schedule> {
+/// Makes the schedule of the cameras after the first, unless it is there. Most Apps never need it.
+fn make_further_camera(mut schedules: ResMut<Schedules>) {
+    if schedules.contains(FurtherCamera) {
+        return;
+    }
     let mut app = App::empty();
     add_further_camera(&mut app);
     cpu::add_stages(&mut app, FurtherCamera.intern());
     #[cfg(feature = "wgpu")]
     gpu::plugin::add_stages(&mut app, FurtherCamera.intern());
-    app.world_mut().resource_mut::<Schedules>().remove(FurtherCamera)
+    let made = app.world_mut().resource_mut::<Schedules>().remove(FurtherCamera);
+    made.and_then(|schedule| schedules.insert(schedule));
 }
 
 /// Opens an adapter for headless pictures unless one is open. A failure is reported and retried in every frame, so that

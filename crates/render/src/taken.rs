@@ -1,6 +1,7 @@
 //! Pictures of frames, with what is laid over and behind them.
 
 use crate::background;
+use crate::has_lines::has_lines;
 use crate::jitter;
 use crate::legend::draw_legend;
 use crate::lines;
@@ -103,7 +104,7 @@ fn finished(world: &mut World) -> Result<Picture, RenderError> {
 /// Adds a camera's background, or what the part that it draws `kept`, and its lines to its picture.
 fn finish(world: &mut World, picture: &mut Picture, kept: Option<&Picture>) -> Result<(), RenderError> {
     background::put_behind(world, picture, kept)?;
-    if lines::has_lines(world) {
+    if has_lines(world) {
         lines::draw_over_frame(world, picture)?;
     }
     Ok(())

@@ -3,7 +3,6 @@
 use crate::cpu::canvas::{Canvas, CanvasTarget};
 #[cfg(feature = "wgpu")]
 use crate::gpu::{attachments::Target, timer::GpuTimer};
-use crate::plugin::further_camera;
 use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
 use halfway_frame::FurtherCamera;
@@ -129,9 +128,6 @@ pub(crate) fn draw_further(world: &mut World) {
     #[cfg(feature = "wgpu")]
     let timer = world.remove_resource::<GpuTimer>();
     let count = world.resource::<Views>().each.len();
-    if count > 1 && !world.resource::<Schedules>().contains(FurtherCamera) {
-        further_camera().and_then(|schedule| world.resource_mut::<Schedules>().insert(schedule));
-    }
     for number in 1..count {
         in_turn(world, number, |world, _| {
             let first = world.resource::<FrameReport>().clone();

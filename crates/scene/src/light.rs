@@ -34,7 +34,7 @@ pub struct LightEntry {
     pub attach: AttachEntry,
     /// Its name; no other camera, light or object has the same.
     pub name: Option<String>,
-    /// The numbers of the layers that it belongs to, each 0 to 31; without any, 0.
+    /// The numbers of the layers that it belongs to, each 0 to 31; `None`: those of what it is attached to, else 0.
     pub layers: Option<Vec<u32>>,
     /// How its position, direction and colors change in time.
     pub animation: Vec<TrackEntry>,
@@ -274,8 +274,13 @@ const POSITION: Key = key("position", "Where the light is.");
 const POSITION_AND_W: Key = key("position", "(x, y, z, w), not all 0.");
 const NAME: Key = key("name", "Its name; no other camera, light or object has the same. null: none.");
 const ANIMATION: Key = key("animation", "How its position, direction and colors change in time.");
-const LAYERS_KEY: Key =
-    Key { limits: LAYERS, ..key("layers", "The numbers of the layers that it belongs to, each 0 to 31; null: 0.") };
+const LAYERS_KEY: Key = Key {
+    limits: LAYERS,
+    ..key(
+        "layers",
+        "The numbers of the layers that it belongs to, each 0 to 31; null: those of what it is attached to, else 0.",
+    )
+};
 const ATTACH: Key = key("attach", "Whose frame position and direction are in, and with what the light moves.");
 
 const fn key(name: &'static str, meaning: &'static str) -> Key {

@@ -118,8 +118,8 @@ fn spawn_seen(
         .map(|(i, object)| Ok((object, shapes.load_once(object, i)?)))
         .collect::<Result<Vec<_>, SceneError>>()?;
 
-    let sharing = |_| scene.all_cameras().filter(|camera| camera.viewport.is_some()).cloned().map(SeenFrom::Entry);
-    let sharing: Vec<_> = wanted.is_none().then_some(()).into_iter().flat_map(sharing).collect();
+    let sharing = scene.all_cameras().filter(|camera| wanted.is_none() && camera.viewport.is_some());
+    let sharing: Vec<_> = sharing.cloned().map(SeenFrom::Entry).collect();
     let is_shared = !sharing.is_empty();
     let seen = if is_shared { sharing } else { vec![SeenFrom::choose(scene, &objects, wanted)?] };
     if !seen.iter().any(|seen| matches!(seen, SeenFrom::Model { .. })) {
@@ -419,6 +419,7 @@ fn spawn_object(
         }
     }
     insert_some(&mut world.entity_mut(frame), Animated::object(&object.transform, &object.animation));
+    insert_layers(&mut world.entity_mut(frame), object.layers.as_ref());
     frame
 }
 
@@ -471,6 +472,7 @@ fn insert_looks(object: &ObjectEntry, own: Option<ModelMaterial>, entity: &mut E
     let own = own.filter(|_| object.material.is_none());
     let alpha = alpha(object, own.map(|own| own.alpha).unwrap_or_default());
     insert_some(entity, Some(alpha).filter(|alpha| *alpha != AlphaMode::default()));
+    insert_some(entity, object.shading.or(own.and_then(|own| own.shading)));
 }
 
 /// Gives an entity a part: its mesh, its looks and the images of its own material.
@@ -510,12 +512,10 @@ fn dress(object: &ObjectEntry, part: &ShapePart, mesh: Handle<Mesh>, entity: &mu
     let faces = object.faces.or(own.map(|own| own.faces)).unwrap_or_default();
     entity.insert((Mesh3d(mesh), material_of(object, part.own), faces));
     insert_some(entity, object.back_material.as_ref().and_then(MaterialEntry::material).map(BackMaterial));
-    insert_some(entity, object.shading.or(own.and_then(|own| own.shading)));
     insert_some(entity, object.tolerance);
     insert_some(entity, object.reflectance);
     // All parts are cut from one solid.
     insert_some(entity, object.edges.as_ref().map(EdgesEntry::component));
-    insert_layers(entity, object.layers.as_ref());
     insert_some(entity, object.solid.as_ref().map(|solid| solid.for_part(&part.object_from_part)));
     insert_looks(object, part.own, entity);
 }

@@ -77,7 +77,6 @@ type CameraQuery<'w, 's> = Query<
 #[derive(Resource, Clone, Copy, Debug, Default)]
 pub(crate) struct Epoch(u64);
 
-#[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub(crate) fn update(
     which: Cameras,
     cameras: CameraQuery,

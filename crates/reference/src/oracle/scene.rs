@@ -97,19 +97,21 @@ struct ViewDefaults {
     load: Load,
 }
 
+/// The components that say how a camera draws.
+type CameraComponents<'a> = (
+    &'a Camera,
+    &'a GlobalTransform,
+    Option<&'a Shading>,
+    Option<&'a Reflectance>,
+    Option<&'a Viewport>,
+    Option<&'a Edges>,
+    Option<&'a Name>,
+);
+
 fn view_defaults(world: &mut World, size: UVec2) -> Result<ViewDefaults, OracleError> {
     let none = |count| if count == 0 { OracleError::NoCamera } else { OracleError::ManyCameras(count) };
     let entity = current_camera(world).map_err(none)?;
-    type View<'a> = (
-        &'a Camera,
-        &'a GlobalTransform,
-        Option<&'a Shading>,
-        Option<&'a Reflectance>,
-        Option<&'a Viewport>,
-        Option<&'a Edges>,
-        Option<&'a Name>,
-    );
-    let mut query = world.query::<View>();
+    let mut query = world.query::<CameraComponents>();
     let (camera, transform, shading, reflectance, viewport, edges, name) =
         query.get(world, entity).map_err(|_| OracleError::NoCamera)?;
     camera.validate().map_err(|source| OracleError::Invalid { entity: label(entity, name), source })?;

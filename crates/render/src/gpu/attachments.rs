@@ -8,7 +8,6 @@ use crate::gpu::surface::{Lost, SurfaceLost, SurfaceTarget};
 use crate::gpu::texture::TextureTarget;
 use crate::headless::Headless;
 use crate::picture::Pixels;
-use crate::views::Views;
 use bevy_ecs::prelude::*;
 use bevy_math::{URect, UVec2};
 use halfway_frame::error::RenderError;
@@ -16,7 +15,7 @@ use halfway_frame::report::FrameReport;
 use halfway_frame::times::FrameTimes;
 use halfway_frame::values::{FrameValues, PixelValues, WaitsForLevels};
 use halfway_frame::view::camera::{PictureSize, View};
-use halfway_lighting::{AlphaMode, Camera, Encoding, Load, Samples, Shown};
+use halfway_lighting::{AlphaMode, Camera, CameraTurn, Encoding, Load, Samples, Shown};
 use halfway_mesh::Mesh3d;
 
 /// The target of the frame.
@@ -152,7 +151,7 @@ pub(crate) fn prepare(
     headless: Res<Headless>,
     surface: Option<ResMut<SurfaceTarget>>,
     texture: Option<Res<TextureTarget>>,
-    views: Res<Views>,
+    turn: Res<CameraTurn>,
     view: Res<View>,
     size: Res<PictureSize>,
     alphas: Query<(Entity, &AlphaMode), With<Mesh3d>>,
@@ -203,7 +202,7 @@ pub(crate) fn prepare(
     let encodes = camera.encoding == Encoding::Srgb;
     let (format, given, delivery) = match (texture, surface) {
         (Some(texture), _) => {
-            let shared = if views.is_empty() { Ok(()) } else { Err(texture.shared()) };
+            let shared = if turn.0.is_none() { Ok(()) } else { Err(texture.shared()) };
             if let Err(error) = shared.and_then(|()| texture.check(&gpu, &camera, (samples, blends))) {
                 report.errors.push(error);
                 return;
@@ -218,7 +217,7 @@ pub(crate) fn prepare(
             }
         },
         // Each camera draws into a picture of its own, and all are copied to the window.
-        (None, Some(mut surface)) if !views.is_empty() => {
+        (None, Some(mut surface)) if turn.0.is_some() => {
             surface.pick_format(encodes);
             (surface.format(), None, Delivery::Read)
         }

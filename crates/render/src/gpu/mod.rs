@@ -13,6 +13,7 @@ pub(crate) mod plugin;
 mod provoking_vertex;
 pub(crate) mod read_back;
 mod shaders;
+pub(crate) mod shared_window;
 pub(crate) mod state;
 mod sub_pixel_grid;
 pub(crate) mod surface;

@@ -9,10 +9,12 @@ use crate::gpu::draw::upload::{self, Buffers};
 use crate::gpu::passes::encode;
 use crate::gpu::passes::over;
 use crate::gpu::pipelines::cache::{self, Pipelines};
+use crate::gpu::shared_window;
+use crate::gpu::surface::SurfaceTarget;
 use crate::gpu::texture;
 use crate::headless;
 use crate::replaced;
-use crate::views;
+use crate::views::{self, Views};
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::InternedScheduleLabel;
@@ -31,7 +33,11 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
         schedule,
         (
             attachments::measure.in_set(View).after(headless::measure).before(views::begin),
-            encode::present.in_set(Deliver).after(views::draw_further).run_if(gpu_draws),
+            (shared_window::present.run_if(Views::are_there).run_if(resource_exists::<SurfaceTarget>), encode::present)
+                .chain()
+                .in_set(Deliver)
+                .after(views::draw_further)
+                .run_if(gpu_draws),
             texture::refuse_on_cpu.in_set(View).after(cpu::draw::prepare).run_if(cpu_draws),
             over::refuse_on_cpu.in_set(Draw).run_if(cpu_draws).run_if(over::is_any),
         ),

@@ -52,28 +52,30 @@ impl KnownEdges {
     }
 }
 
+type Objects<'w, 's> = Query<
+    'w,
+    's,
+    (
+        Entity,
+        &'static Mesh3d,
+        &'static GlobalTransform,
+        &'static SpawnOrder,
+        Option<&'static Edges>,
+        Option<&'static Name>,
+    ),
+>;
+
+type Data<'w, 's> = (
+    Objects<'w, 's>,
+    Query<'w, 's, &'static Edges, With<Camera>>,
+    Cameras<'w, 's>,
+    Shown<'w, 's>,
+    Res<'w, Assets<Mesh>>,
+);
+
 /// The shown objects with edges of their own or the camera's, in spawn order.
 pub(super) fn edged_objects(world: &mut World) -> Result<Vec<EdgedObject>, RenderError> {
-    type Objects<'w, 's> = Query<
-        'w,
-        's,
-        (
-            Entity,
-            &'static Mesh3d,
-            &'static GlobalTransform,
-            &'static SpawnOrder,
-            Option<&'static Edges>,
-            Option<&'static Name>,
-        ),
-    >;
     let mut known = world.remove_resource::<KnownEdges>().unwrap_or_default();
-    type Data<'w, 's> = (
-        Objects<'w, 's>,
-        Query<'w, 's, &'static Edges, With<Camera>>,
-        Cameras<'w, 's>,
-        Shown<'w, 's>,
-        Res<'w, Assets<Mesh>>,
-    );
     let mut state = bevy_ecs::system::SystemState::<Data>::new(world);
     let (objects, of_cameras, cameras, shown, meshes) = state.get(world).map_err(|_| RenderError::NoPicture)?;
     let of_camera = cameras.current().ok().and_then(|camera| of_cameras.get(camera).ok());

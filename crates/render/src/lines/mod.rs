@@ -14,17 +14,9 @@ use crate::picture::Picture;
 use crate::quantities::{Surfaces, no_camera};
 use bevy_ecs::prelude::*;
 use halfway_frame::error::RenderError;
-use halfway_lighting::{Camera, Edges, Show, current_camera};
-use halfway_mesh::Lines3d;
-
-/// Whether this world has lines: [`Edges`], [`Lines3d`] or [`Show`].
-pub fn has_lines(world: &World) -> bool {
-    fn any<T: Component>(world: &World) -> bool {
-        world.try_query::<&T>().is_some_and(|mut all| all.iter(world).next().is_some())
-    }
-    let shows = world.try_query::<&Show>().is_some_and(|mut all| all.iter(world).any(Show::any));
-    shows || any::<Edges>(world) || any::<Lines3d>(world)
-}
+use halfway_lighting::{Camera, Show, current_camera};
+#[cfg(doc)]
+use {halfway_lighting::Edges, halfway_mesh::Lines3d};
 
 /// Draws all lines over the newest frame's picture.
 ///

@@ -7,9 +7,7 @@ use crate::gpu::draw::upload::Buffers;
 use crate::gpu::passes::ScenePasses;
 use crate::gpu::passes::over::OverPasses;
 use crate::gpu::pipelines::cache::Pipelines;
-use crate::gpu::surface::{Lost, SurfaceLost, SurfaceTarget};
 use crate::gpu::timer::GpuTimer;
-use crate::views::Views;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::URect;
@@ -152,55 +150,17 @@ fn unexplained(draws: u32, report: &FrameReport) -> Option<RenderError> {
 /// Presents the frame in a window, and polls the device for its loss.
 pub(crate) fn present(
     gpu: Res<Gpu>,
-    surface: Option<ResMut<SurfaceTarget>>,
-    views: Res<Views>,
     mut target: ResMut<Target>,
     mut times: ResMut<FrameTimes>,
     mut report: ResMut<FrameReport>,
-    mut commands: Commands,
 ) {
     if let Some(surface) = target.take_surface_texture() {
         times.at_display(|| gpu.queue.present(surface));
-    }
-    if let Some(mut surface) = surface.filter(|_| !views.is_empty()) {
-        match times.at_display(|| surface.acquire_for_copies(&gpu)) {
-            Ok(Some(texture)) => {
-                copy_together(&gpu, (&views, &target), &texture.texture);
-                times.at_display(|| gpu.queue.present(texture));
-            }
-            Ok(None) => {}
-            Err(Lost) => commands.insert_resource(SurfaceLost),
-        }
     }
     // A lost device is the cause of all other errors.
     if let Err(error) = gpu.poll(wgpu::PollType::Poll) {
         report.errors.insert(0, error);
     }
-}
-
-/// Copies the pictures of all cameras to the window's.
-fn copy_together(gpu: &Gpu, (views, first): (&Views, &Target), window: &wgpu::Texture) {
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("window") });
-    // Where no camera draws, it is black.
-    let black = wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store };
-    let view = window.create_view(&wgpu::TextureViewDescriptor::default());
-    drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("window"),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: black,
-        })],
-        ..Default::default()
-    }));
-    for (place, target) in views.targets(first) {
-        let Some(picture) = target.picture() else { continue };
-        let origin = wgpu::Origin3d { x: place.corner.x, y: place.corner.y, z: 0 };
-        let to = wgpu::TexelCopyTextureInfo { origin, ..window.as_image_copy() };
-        encoder.copy_texture_to_texture(picture.as_image_copy(), to, picture.size());
-    }
-    gpu.queue.submit([encoder.finish()]);
 }
 
 /// Draws the frame that the render schedule has prepared for a [`TextureTarget`](crate::TextureTarget) with the
