@@ -39,7 +39,8 @@ pub fn render_picture(app: &mut App) -> Result<Picture, RenderError> {
 ///
 /// ```
 /// use bevy_app::App;
-/// /// use bevy_transform::{TransformPlugin, components::Transform};
+/// use bevy_math::UVec2;
+/// use bevy_transform::{TransformPlugin, components::Transform};
 /// use halfway_asset::Assets;
 /// use halfway_lighting::{Camera, Material};
 /// use halfway_mesh::{Mesh, Mesh3d, UvSphere};

@@ -40,7 +40,19 @@ impl Drop for Folder {
 
 /// Checks that a model is valid.
 pub(crate) fn check_model(model: &Model) {
-    assert!(!model.parts.is_empty());
+    assert!(!model.parts.is_empty() || !model.lines.is_empty());
+    for part in &model.lines {
+        let lines = &part.lines;
+        assert!(part.world_from_part.is_finite() && part.world_from_part.row(3) == [0.0, 0.0, 0.0, 1.0].into());
+        assert!(part.material.is_none_or(|material| material < model.materials.len()));
+        assert!(!lines.segments().is_empty() || !lines.points().is_empty());
+        let vertices = lines.positions().len();
+        let mut ends = lines.segments().iter().flatten().chain(lines.points());
+        assert!(ends.all(|&end| (end as usize) < vertices));
+        assert!(lines.positions().iter().all(|p| p.is_finite()));
+        assert!(lines.normals().is_none_or(|all| all.len() == vertices && all.iter().all(|n| n.is_finite())));
+        assert!(lines.colors().is_none_or(|all| all.len() == vertices && all.iter().all(|c| c.is_finite())));
+    }
     for part in &model.parts {
         let mesh = &part.mesh;
         assert!(part.world_from_part.is_finite() && part.world_from_part.row(3) == [0.0, 0.0, 0.0, 1.0].into());
