@@ -111,7 +111,9 @@ fn sixteen_and_sixty_four_samples_are_the_mean_of_the_oracle() {
             // A sample on an edge falls to either side, by the grid of the vertices: a 16th of a step from 0 to 255.
             let off_expected = off(&expected);
             let far = off_expected.iter().filter(|&&steps| steps > 1).count();
-            assert!(far * 100 < off_expected.len(), "{samples:?}: {far} pixels are off");
+            // On a grid of 4 bits a vertex is off by up to a 32nd of a pixel, an eighth of the distance between 16 samples.
+            let allowed = if stage.grid_bits() < 8 { 25 } else { 10 };
+            assert!(far * 1000 < allowed * off_expected.len(), "{samples:?}: {far} pixels are off");
             assert!(off_expected.iter().all(|&steps| steps < 30), "{samples:?}: {:?}", off_expected.iter().max());
             // A planted fault: other points of the pixels.
             let wrong = off(&other).iter().filter(|&&steps| steps > 1).count();

@@ -17,6 +17,7 @@ use crate::look::unknown_material;
 use crate::reading::{InputArgs, ReadingArgs};
 
 /// A scene with the folder of its relative paths.
+#[derive(Clone)]
 pub(crate) struct SceneInput {
     pub(crate) scene: SceneFile,
     base_dir: PathBuf,
@@ -130,9 +131,16 @@ impl SceneInput {
         self.scene.all_cameras_mut().for_each(|camera| camera.viewport = None);
     }
 
-    /// Whether several cameras share the picture.
-    pub(crate) fn is_shared(&self) -> bool {
-        self.camera.is_none() && self.scene.all_cameras().any(|camera| camera.viewport.is_some())
+    /// The cameras that share the picture, by their numbers, with their names; none where one has it for itself.
+    pub(crate) fn sharing(&self) -> Vec<(usize, String)> {
+        let all = self.scene.all_cameras().enumerate();
+        let shared = all.filter(|(_, camera)| self.camera.is_none() && camera.viewport.is_some());
+        shared.map(|(number, camera)| (number, camera.name.clone().unwrap_or_else(|| number.to_string()))).collect()
+    }
+
+    /// The same, seen from the camera with this number.
+    pub(crate) fn seen_from(&self, number: usize) -> Self {
+        Self { camera: Some(number.to_string()), ..self.clone() }
     }
 
     /// Removes what is drawn over and behind the finished picture, by the same code for all renderers: lines, but for

@@ -41,7 +41,8 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     if input.remove_what_is_laid_over() {
         eprintln!("note: judged without lines along edges and before an opaque background of one colour");
     }
-    if input.is_shared() {
+    let sharing = input.sharing();
+    if !sharing.is_empty() && (args.picture.is_some() || args.output.is_some()) {
         let file = input.name();
         return Err(
             format!("{file}: several cameras share the picture; expected --camera with the one to judge").into()
@@ -50,6 +51,21 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     if let Some(file) = &args.picture {
         return judge_picture(args, input, file);
     }
+    if sharing.is_empty() {
+        return judge_adapter(args, input);
+    }
+    let mut judged = Ok(());
+    for (number, name) in sharing {
+        if !args.json {
+            println!("camera {name}, with the picture for itself:");
+        }
+        judged = judged.and(judge_adapter(args, input.seen_from(number)));
+    }
+    judged
+}
+
+/// Judges the picture that the adapter draws.
+fn judge_adapter(args: &VerifyArgs, mut input: SceneInput) -> Result<(), Failure> {
     let tolerance = args.drawing.tolerance.or(Tolerance::EXACT);
     if tolerance.pixels > 0.0 {
         let pixels = tolerance.pixels;

@@ -216,7 +216,7 @@ const TIMES_AND_CAMERAS: &[(&[&str], &[&str])] = &[
     (&["render", "fine.json", "-o", "a.png", "--turntable", "0"], &["--turntable", "1..=100000"]),
     (&["render", "fine.json", "-o", "a.png", "--camera", "top"], &["--camera", "\"top\"", "fine.json", "any"]),
     (&["render", "two.json", "-o", "a.png", "--camera", "top"], &["\"top\"; there are 0, 1 \"side\""]),
-    (&["verify", "shared.json"], &["shared.json", "share the picture", "--camera"]),
+    (&["verify", "shared.json", "-o", "a.png"], &["shared.json", "share the picture", "--camera"]),
     (&["render", "beyond.json", "-o", "a.png"], &["beyond.json", "viewport.fractions", "beyond the picture"]),
     (&["verify", "two.json", "--camera", "2"], &["\"2\"; there are 0, 1 \"side\""]),
 ];
