@@ -50,7 +50,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     args.reading.without_picture()?;
     let from_standard = args.input == Path::new(STANDARD);
     let to_standard = args.output == Path::new(STANDARD);
-    // What is said does not mix with what is written.
+    // Messages do not mix with the written model.
     let say: fn(String) = if to_standard { |line| eprintln!("{line}") } else { |line| println!("{line}") };
     let formats = args.reading.model_formats();
     let of_output = formats.last().filter(|_| to_standard);

@@ -49,7 +49,7 @@ pub(crate) fn averaged(
     if let Some(error) = failed {
         return Err(error);
     }
-    // What is asked of the frame afterwards is asked of the camera's own.
+    // Questions about the frame are answered by the camera's own.
     let last = draw(world)?;
     Ok(sum.map_or(last, |sum| sum.mean(encoding)))
 }
@@ -137,7 +137,7 @@ mod tests {
         assert_eq!(mean(&pictures, Encoding::Raw), one([128, 0, 100, 255]));
         // Half of the light, not half of the byte.
         assert_eq!(mean(&pictures, Encoding::Srgb), one([188, 0, 100, 255]));
-        // What is transparent has no colour.
+        // Transparent pixels have no colour.
         assert_eq!(mean(&[[200, 10, 0, 255], [0, 0, 0, 0]], Encoding::Srgb), one([200, 10, 0, 128]));
         assert_eq!(mean(&[[0; 4]; 2], Encoding::Srgb), one([0; 4]));
     }

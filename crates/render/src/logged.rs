@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use bevy_ecs::prelude::*;
-use halfway_lighting::{AlphaMode, Material};
+use halfway_lighting::{AlphaMode, Load, Material, Viewport};
 use halfway_mesh::Mesh3d;
 
 use crate::cpu::canvas::CanvasTarget;
@@ -82,7 +82,10 @@ pub(crate) fn may_be_empty(report: Res<FrameReport>) -> bool {
 const NO_LINES: &str = "a window does not show lines and points (`Edges`, `Lines3d`, `Show`); pictures that are taken do \
                         (`take_picture`)";
 
-/// Logs once that a window does not show the lines that there are.
+const NO_KEEPING: &str = "in a window a camera with `Load::Keep` clears its part; in pictures that are taken it keeps what \
+                          is there (`take_picture`)";
+
+/// Logs once what a window does not show: lines and points, and pictures that cameras keep.
 pub(crate) fn log_lines(world: &mut World) {
     #[cfg(feature = "wgpu")]
     let is_window = world.contains_resource::<CanvasTarget>() || world.contains_resource::<SurfaceTarget>();
@@ -90,6 +93,11 @@ pub(crate) fn log_lines(world: &mut World) {
     let is_window = world.contains_resource::<CanvasTarget>();
     if is_window && crate::has_lines(world) && world.resource_mut::<Logged>().is_new(NO_LINES) {
         log::warn!("{NO_LINES}");
+    }
+    let keeps = |viewport: &Viewport| viewport.load == Load::Keep;
+    let any_keeps = |world: &World| world.try_query::<&Viewport>().is_some_and(|mut all| all.iter(world).any(keeps));
+    if is_window && any_keeps(world) && world.resource_mut::<Logged>().is_new(NO_KEEPING) {
+        log::warn!("{NO_KEEPING}");
     }
 }
 

@@ -189,7 +189,7 @@ pub(crate) fn in_turn<T>(world: &mut World, number: usize, work: impl FnOnce(&mu
     let size = world.get_resource::<PictureSize>().copied().unwrap_or_default();
     world.insert_resource(CameraTurn(Some(camera)));
     world.insert_resource(PictureSize(place.size));
-    // What the first one has left is in the world already.
+    // The first one's are in the world already.
     if number > 0 {
         exchange(world, number);
     }

@@ -93,7 +93,7 @@ pub(crate) type PaintOf<'a> =
     (Option<&'a VertexColors>, Option<&'a Maps>, Option<&'a AlphaMode>, Option<&'a SolidTexture>);
 
 impl<'a> Paint<'a> {
-    /// Of what an unlit object has, that which makes its base color or its opacity.
+    /// The images of an unlit object that make its base color or its opacity.
     pub(crate) fn new(
         mesh: &Mesh,
         (colors, maps, alpha, solid): PaintOf<'a>,

@@ -79,7 +79,7 @@ impl Mark {
         }
     }
 
-    /// What of it is seen in each pixel.
+    /// The share of each pixel in which it is seen.
     fn each(&self, drawing: &Drawing, mut reach: impl FnMut(u32, u32, Fragment)) {
         match self.shape {
             Shape::Line { segment, nearness, inks } => {
