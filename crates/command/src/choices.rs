@@ -2,6 +2,7 @@
 
 use clap::builder::PossibleValue;
 use halfway::lighting::Choices;
+pub(crate) use halfway::scene::options::parse::choice;
 
 /// The choices of a type as values of an option, with their meanings as help.
 pub(crate) fn values<T: Choices>() -> impl Iterator<Item = PossibleValue> {
@@ -9,9 +10,4 @@ pub(crate) fn values<T: Choices>() -> impl Iterator<Item = PossibleValue> {
         let meaning = choice.meaning.trim_end_matches('.');
         PossibleValue::new(choice.key.replace('_', "-")).help(meaning)
     })
-}
-
-/// The value of this name.
-pub(crate) fn choice<T: Choices>(text: &str) -> Option<T> {
-    T::from_key(&text.replace('-', "_"))
 }

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use halfway::mesh::{LoadError, Model, Normals, Subdivision, Weld, load_with, write, write_quantised};
+use halfway::scene::options::parse;
 
 use crate::failure::{Failure, STOPPED};
-use crate::look::parse_normals;
 use crate::progress::Progress;
 use crate::reading::{ReadingArgs, STANDARD};
 use crate::steps::Meshes;
@@ -39,7 +39,7 @@ pub(crate) struct ConvertArgs {
     #[arg(long, value_name = "LENGTH", value_parser = parse_length)]
     max_error: Option<f64>,
     /// Make new normals: one a face, a mean by these weights, or a mean that stops where faces differ by more degrees
-    #[arg(long, value_name = "auto|keep|face|uniform|area|angle|max|creased=DEGREES", value_parser = parse_normals)]
+    #[arg(long, value_name = "auto|keep|face|uniform|area|angle|max|creased=DEGREES", value_parser = parse::normals)]
     normals: Option<Normals>,
     /// Write vertices as integers of 16 bits, which makes large meshes about 40 % smaller; .glb only
     #[arg(long)]

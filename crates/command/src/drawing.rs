@@ -4,6 +4,7 @@ use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use halfway::prelude::{Intensity, Reflectance, Shading, UVec2};
 use halfway::record::parse_size;
+use halfway::scene::options::{SceneOptions, parse};
 
 use crate::adapters::AdapterArgs;
 use crate::choices::{choice, values};
@@ -36,7 +37,7 @@ pub(crate) struct DrawingArgs {
     /// The treatment of intensities above 1: clamp, renormalise, reinhard or aces; renormalise with the share of the
     /// last frame's divisor that stays, reinhard with the intensity that becomes 1 [default: the scene's; clamp for a
     /// model]
-    #[arg(long, value_name = "clamp|renormalise[=SHARE]|reinhard[=WHITE]|aces", value_parser = parse_intensity)]
+    #[arg(long, value_name = "clamp|renormalise[=SHARE]|reinhard[=WHITE]|aces", value_parser = parse::intensity)]
     pub(crate) intensity: Option<Intensity>,
     /// The camera of this name, or the N-th, counted from 0: the scene's, then those of its models [default: the scene's
     /// first, or one that frames everything]
@@ -73,6 +74,24 @@ impl DrawingArgs {
             }
         })
     }
+
+    /// The options for the scene. Prints a warning about a former shading.
+    pub(crate) fn options(&self) -> SceneOptions {
+        let mut options = SceneOptions {
+            shading: self.shading(),
+            reflectance: self.reflectance,
+            tolerance: self.tolerance.given(),
+            samples: self.samples,
+            intensity: self.intensity,
+            ..SceneOptions::default()
+        };
+        self.framing.put_into(&mut options);
+        self.look.put_into(&mut options);
+        self.edges.put_into(&mut options);
+        self.lines.put_into(&mut options);
+        self.scalars.put_into(&mut options);
+        options
+    }
 }
 
 /// The size of a picture.
@@ -90,7 +109,7 @@ fn shadings() -> impl TypedValueParser<Value = GivenShading> {
 }
 
 fn reflectances() -> impl TypedValueParser<Value = Reflectance> {
-    PossibleValuesParser::new(values::<Reflectance>()).try_map(|text| choice(&text).ok_or("not one of the values"))
+    PossibleValuesParser::new(values::<Reflectance>()).try_map(|text| choice(&text))
 }
 
 fn samples() -> impl TypedValueParser<Value = u32> {
@@ -101,25 +120,8 @@ fn samples() -> impl TypedValueParser<Value = u32> {
         ("64", "As many frames, moved by eighths of a pixel"),
     ];
     let values = values.map(|(number, help)| PossibleValue::new(number).help(help));
-    PossibleValuesParser::new(values).try_map(|text| text.parse::<u32>())
+    PossibleValuesParser::new(values).try_map(|text| parse::samples(&text))
 }
-
-fn parse_intensity(text: &str) -> Result<Intensity, String> {
-    let (word, number) = match text.split_once('=') {
-        Some((word, number)) => (word, Some(number.parse::<f32>().map_err(|_| EXPECTED.to_owned())?)),
-        None => (text, None),
-    };
-    let intensity = match (choice(word), number) {
-        (Some(named), None) => named,
-        (Some(Intensity::Renormalize { .. }), Some(smoothing)) => Intensity::Renormalize { smoothing },
-        (Some(Intensity::Reinhard { .. }), Some(white)) => Intensity::Reinhard { white },
-        _ => return Err(EXPECTED.to_owned()),
-    };
-    intensity.validate().map(|()| intensity).map_err(|error| error.problem.to_string())
-}
-
-const EXPECTED: &str =
-    "expected clamp, renormalise, reinhard or aces, the second and third also with a number, as reinhard=4";
 
 #[cfg(test)]
 mod tests {
@@ -146,24 +148,5 @@ mod tests {
         }
         let error = read("smooth").err().map(|error| error.to_string()).unwrap_or_default();
         assert!(error.contains("[possible values: flat, gouraud, phong, unlit]"), "{error}");
-    }
-
-    #[test]
-    fn policies_with_and_without_their_numbers() {
-        for (text, expected) in [
-            ("clamp", Intensity::Clamp),
-            ("renormalise", Intensity::Renormalize { smoothing: 0.0 }),
-            ("renormalise=0.9", Intensity::Renormalize { smoothing: 0.9 }),
-            ("reinhard", Intensity::Reinhard { white: 4.0 }),
-            ("reinhard=2.5", Intensity::Reinhard { white: 2.5 }),
-            ("aces", Intensity::Aces),
-        ] {
-            assert_eq!(parse_intensity(text), Ok(expected), "{text}");
-        }
-        for bad in ["", "tone", "aces=1", "clamp=1", "reinhard=", "reinhard=x", "Clamp"] {
-            assert_eq!(parse_intensity(bad), Err(EXPECTED.to_owned()), "{bad}");
-        }
-        assert!(parse_intensity("reinhard=0.5").is_err_and(|error| error.contains("1 or more")));
-        assert!(parse_intensity("renormalise=1").is_err_and(|error| error.contains("0 to below 1")));
     }
 }

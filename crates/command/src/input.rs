@@ -4,16 +4,12 @@ use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use halfway::lighting::{LightRig, View};
-use halfway::mesh::Normals;
 use halfway::prelude::*;
-use halfway::scene::{
-    CameraEntry, LoadedModel, MeshEntry, ObjectEntry, SceneError, SceneFile, Spawned, spawn, spawn_seen_from,
-};
+use halfway::scene::options::{SceneOptions, scene_of_models, unknown_material};
+use halfway::scene::{LoadedModel, SceneError, SceneFile, Spawned, spawn, spawn_seen_from};
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::Failure;
-use crate::look::unknown_material;
 use crate::reading::{InputArgs, ReadingArgs};
 
 /// A scene with the folder of its relative paths.
@@ -39,7 +35,7 @@ impl SceneInput {
         let model = Arc::new(ReadingArgs::within(limit).load(file)?);
         let model = LoadedModel { path: file.to_owned(), model, material: unknown_material() };
         let (base_dir, warned) = (PathBuf::new(), Cell::new(true));
-        Ok(Self { scene: scene_of(vec![model]), base_dir, file: file.to_owned(), camera: None, warned })
+        Ok(Self { scene: scene_of_models(vec![model]), base_dir, file: file.to_owned(), camera: None, warned })
     }
 
     fn open_all(args: &InputArgs) -> Result<Self, Failure> {
@@ -59,62 +55,14 @@ impl SceneInput {
             let model = Arc::new(args.reading.load(file)?);
             models.push(LoadedModel { path: file.clone(), model, material: unknown_material() });
         }
-        Ok(Self { scene: scene_of(models), base_dir: PathBuf::new(), file, camera: None, warned })
+        Ok(Self { scene: scene_of_models(models), base_dir: PathBuf::new(), file, camera: None, warned })
     }
 
     /// Reads the scene, with the options of the command line.
-    pub(crate) fn read(args: &DrawingArgs) -> Result<Self, Failure> {
+    pub(crate) fn read(args: &DrawingArgs, options: &SceneOptions) -> Result<Self, Failure> {
         let mut input = Self::open_all(&args.input)?;
         input.camera.clone_from(&args.camera);
-        let scene = &mut input.scene;
-        if let Some(shading) = args.shading() {
-            scene.shading = shading;
-            scene.all_cameras_mut().for_each(|camera| camera.shading = None);
-            // Over that of a model's own materials, too.
-            scene.objects.iter_mut().for_each(|object| object.shading = Some(shading));
-        }
-        if let Some(reflectance) = args.reflectance {
-            scene.reflectance = reflectance;
-            scene.all_cameras_mut().for_each(|camera| camera.reflectance = None);
-            scene.objects.iter_mut().for_each(|object| object.reflectance = None);
-        }
-        if let Some(tolerance) = args.tolerance.given() {
-            scene.tolerance = Some(tolerance);
-            scene.all_cameras_mut().for_each(|camera| camera.tolerance = None);
-            scene.objects.iter_mut().for_each(|object| object.tolerance = None);
-        }
-        if let Some(edges) = args.edges.given() {
-            scene.edges = Some(edges.into());
-            scene.objects.iter_mut().for_each(|object| object.edges = None);
-        }
-        if let Some(style) = args.lines.style() {
-            let all = std::iter::once(&mut scene.line_style).chain(scene.objects.iter_mut().map(|o| &mut o.line_style));
-            for (i, entry) in all.enumerate() {
-                // Objects that name no style follow the scene's.
-                if i == 0 || entry.is_some() {
-                    *entry = Some(style(entry.unwrap_or_default()));
-                }
-            }
-        }
-        if let Some(show) = args.lines.show() {
-            scene.show = show;
-        }
-        let is_of_models = scene.objects.iter().all(|object| matches!(object.mesh, MeshEntry::Model(_)));
-        if let Some(samples) = args.samples {
-            scene.samples = samples;
-            scene.all_cameras_mut().for_each(|camera| camera.samples = None);
-        } else if is_of_models && !scene.objects.is_empty() {
-            scene.samples = 4;
-        }
-        if let Some(intensity) = args.intensity {
-            scene.intensity = intensity;
-        }
-        args.look.apply(scene);
-        args.framing.apply(scene);
-        args.scalars.apply(scene);
-        if args.framing.is_given() {
-            input.see_alone();
-        }
+        options.apply(&mut input.scene);
         Ok(input)
     }
 
@@ -182,22 +130,5 @@ impl SceneInput {
         let text = error.to_string();
         let text = text.strip_prefix("scene: ").unwrap_or(&text);
         format!("{}: {text}", self.file.display()).into()
-    }
-}
-
-/// Charcoal, before which light and dark models stand out.
-const BACKGROUND: [f32; 3] = [0.024, 0.027, 0.032];
-
-/// Models that nothing is known of, shown to please: framed from the front, a little from the right and from above, lit
-/// by their own lights or by the studio's.
-fn scene_of(models: Vec<LoadedModel>) -> SceneFile {
-    let has_lights = models.iter().any(|loaded| !loaded.model.lights.is_empty());
-    let object = |loaded| ObjectEntry { normals: Normals::Auto, ..ObjectEntry::new(MeshEntry::Model(loaded)) };
-    SceneFile {
-        camera: Some(CameraEntry { view: Some(View::default()), fov_y_deg: 30.0, ..CameraEntry::default() }),
-        background: BACKGROUND,
-        lights: (!has_lights).then(|| LightRig::Studio.into()),
-        objects: models.into_iter().map(object).collect(),
-        ..SceneFile::default()
     }
 }

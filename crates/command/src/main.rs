@@ -25,11 +25,9 @@ mod render;
 mod scalars;
 #[cfg(feature = "measure")]
 mod scenery;
-mod sheet;
 mod steps;
 mod thumbnail;
 mod tolerance;
-mod turntable;
 mod verify;
 #[cfg(feature = "window")]
 mod view;

@@ -5,19 +5,19 @@ use std::path::PathBuf;
 
 use clap::Args;
 use halfway::lighting::Choices;
+use halfway::output::ContactSheet;
 use halfway::prelude::*;
 use halfway::record::{FrameToDraw, RecordError, Recording, ReferenceDrawing, record_with};
 use halfway::reference::Mode;
 use halfway::render::Adapter;
-use halfway::scene::SceneTime;
+use halfway::scene::options::{SceneOptions, Views, views};
+use halfway::scene::{SceneTime, Turntable, outline};
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::empty::warn_if_empty;
 use crate::failure::Failure;
 use crate::input::SceneInput;
 use crate::progress::Progress;
-use crate::sheet::{Views, parse_views};
-use crate::turntable::Turntable;
 
 #[derive(Args, Debug)]
 pub(crate) struct RenderArgs {
@@ -42,7 +42,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "T", value_parser = parse_time, conflicts_with_all = ["frames", "turntable"])]
     time: Option<f64>,
     /// Several views on one sheet with captions, each of --size, such as front,right,top,iso; with --ortho at one scale
-    #[arg(long, value_name = "LIST", value_parser = parse_views, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LIST", value_parser = views, allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["view", "frames", "turntable", "time", "also", "contact_sheet"])]
     views: Option<Views>,
     /// Bits a channel: 8 or 16 in a PNG, 32 in an EXR [default: 8; 32]
@@ -138,7 +138,8 @@ impl Drawer {
 }
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
-    let mut input = SceneInput::read(&args.drawing)?;
+    let options = args.drawing.options();
+    let mut input = SceneInput::read(&args.drawing, &options)?;
     let size = input.resize(args.size);
     if args.views.is_some() || args.turntable.is_some() {
         input.see_alone();
@@ -162,10 +163,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let mut app = drawer.app(size);
     let spawned = input.spawn(&mut app)?;
     if let Some(views) = &args.views {
-        return draw_sheet(args, views, &recording, &drawer, (&mut app, spawned.camera));
+        return draw_sheet(&options, views, &recording, &drawer, (&mut app, spawned.camera));
     }
     if let Some(frames) = args.turntable {
-        let up = args.drawing.framing.upright(&input.scene);
+        let up = options.upright(&input.scene);
         Turntable::turn(&mut app, spawned.camera, up, std::f32::consts::TAU / frames as f32);
     } else if !spawned.is_animated {
         let still = |option: &str| format!("{option}: {} has no animation", input.name());
@@ -184,7 +185,7 @@ const MOST_FRAMES: u32 = 100_000;
 
 /// Draws several views on one sheet.
 fn draw_sheet(
-    args: &RenderArgs,
+    options: &SceneOptions,
     views: &Views,
     recording: &Recording,
     drawer: &Drawer,
@@ -199,19 +200,18 @@ fn draw_sheet(
     app.insert_resource(Headless { size, pixels });
     app.finish();
     app.cleanup();
-    let projection = app.world().get::<Camera>(camera).map(|camera| camera.projection).unwrap_or_default();
-    let is_parallel = matches!(projection, Projection::Orthographic { .. });
-    let projection = if is_parallel { Projection::default() } else { projection };
+    let points = outline(app.world_mut());
+    let base = app.world().get::<Camera>(camera).copied().unwrap_or_default();
     let progress = Progress::for_tiles(1);
-    let draw = |app: &mut App, number: u32| {
+    let mut sheet = ContactSheet::new(views.columns(), size.x, base.encoding);
+    for (number, (caption, seen, place)) in (0..).zip(views.cameras(options, base, &points, size)) {
+        app.world_mut().entity_mut(camera).insert((seen, place));
         let picture = drawer.picture(app, FrameToDraw { number, size, pixels }, 0, &progress)?;
         warn_if_empty(app, &picture);
-        Ok(picture)
-    };
-    let framing = (&args.drawing.framing, projection);
-    let (sheet, encoding) = views.draw(framing, (app, camera), size, draw)?;
+        sheet.push_with_caption(&picture, &caption);
+    }
     drop(progress);
-    Ok(recording.write(0, &sheet, encoding)?)
+    Ok(recording.write(0, &sheet.picture(), base.encoding)?)
 }
 
 fn parse_frames(text: &str) -> Result<Range<u32>, String> {

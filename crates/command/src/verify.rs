@@ -37,7 +37,7 @@ pub(crate) struct VerifyArgs {
 
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     args.drawing.input.without_picture()?;
-    let mut input = SceneInput::read(&args.drawing)?;
+    let mut input = SceneInput::read(&args.drawing, &args.drawing.options())?;
     if input.remove_what_is_laid_over() {
         eprintln!("note: judged without lines along edges and before an opaque background of one colour");
     }

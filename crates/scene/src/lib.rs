@@ -29,6 +29,7 @@ mod model_root;
 mod models;
 mod named;
 mod object;
+pub mod options;
 mod placement;
 mod retired;
 mod scalars;
@@ -39,6 +40,7 @@ mod spawn;
 mod surface;
 mod track;
 mod transform;
+mod turntable;
 mod view;
 mod viewport;
 
@@ -70,5 +72,6 @@ pub use surface::{
 };
 pub use track::{AnimatedKey, Interpolation, KeyFrame, TrackEntry};
 pub use transform::{TransformEntry, TransformMatrix, TransformParts};
+pub use turntable::Turntable;
 pub use view::{CameraEntry, IntrinsicsEntry};
 pub use viewport::ViewportEntry;

@@ -7,7 +7,7 @@ use super::args::{BenchArgs, BenchShading};
 use crate::failure::Failure;
 use crate::input::SceneInput;
 use crate::scenery::{Benchmark, BenchmarkScene};
-use crate::turntable::Turntable;
+use halfway::scene::Turntable;
 
 /// The timed scene: one of ours, or one from a file.
 pub(super) enum Timed {

@@ -1,11 +1,32 @@
 //! A camera that orbits the scene.
 
-use halfway::prelude::*;
-use halfway::scene::AnimationSystems;
+use bevy_app::{App, Update};
+use bevy_ecs::prelude::*;
+use bevy_math::{Quat, Vec3};
+use bevy_transform::components::{GlobalTransform, Transform};
+use halfway_asset::Assets;
+use halfway_lighting::Camera;
+use halfway_mesh::{Mesh, Mesh3d};
 
-/// The camera orbits the point on its axis that is nearest to the middle of the objects.
-#[derive(Resource)]
-pub(crate) struct Turntable {
+use crate::animation::AnimationSystems;
+
+/// A camera that orbits the point on its axis that is nearest to the middle of the objects.
+///
+/// ```
+/// use bevy_app::App;
+/// use bevy_math::Vec3;
+/// use bevy_transform::components::Transform;
+/// use halfway_lighting::Camera;
+/// use halfway_scene::Turntable;
+///
+/// let mut app = App::new();
+/// app.add_plugins(halfway_mesh::MeshPlugin);
+/// let camera = app.world_mut().spawn((Camera::default(), Transform::from_xyz(0.0, 0.0, 4.0))).id();
+/// // Once around in 36 frames.
+/// Turntable::turn(&mut app, camera, Vec3::Y, std::f32::consts::TAU / 36.0);
+/// ```
+#[derive(Resource, Debug)]
+pub struct Turntable {
     camera: Entity,
     start: Transform,
     /// In radians a frame, about `up`.
@@ -17,7 +38,7 @@ pub(crate) struct Turntable {
 
 impl Turntable {
     /// Turns `camera` about `up`, of unit length, by `step` radians a frame from the second frame on.
-    pub(crate) fn turn(app: &mut App, camera: Entity, up: Vec3, step: f32) {
+    pub fn turn(app: &mut App, camera: Entity, up: Vec3, step: f32) {
         let start = app.world().get::<Transform>(camera).copied().unwrap_or_default();
         app.insert_resource(Self { camera, start, step, up, frame: 0, pivot: None })
             .add_systems(Update, turn.after(AnimationSystems));
@@ -56,11 +77,13 @@ fn turn(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bevy_transform::TransformPlugin;
+    use halfway_mesh::{Cuboid, MeshPlugin};
 
     #[test]
     fn the_camera_goes_round_the_middle_by_its_step_a_frame() {
         let mut app = App::new();
-        app.add_plugins(HalfwayPlugins::reference());
+        app.add_plugins((MeshPlugin, TransformPlugin));
         let mesh = app.world_mut().resource_mut::<Assets<Mesh>>().add(Cuboid::default());
         // Their middle is 4 before the camera and 1 beside its axis.
         for at in [Vec3::new(-1.0, 2.0, -3.0), Vec3::new(3.0, 2.0, 1.0)] {
