@@ -91,18 +91,6 @@ impl SceneInput {
         Self { camera: Some(number.to_string()), ..self.clone() }
     }
 
-    /// Removes what is drawn over and behind the finished picture, by the same code for all renderers: lines, but for
-    /// those of models, legends, and backgrounds of more than one opaque colour. Returns whether there was any.
-    pub(crate) fn remove_what_is_laid_over(&mut self) -> bool {
-        let scene = &mut self.scene;
-        let edges = scene.objects.iter_mut().filter_map(|object| object.edges.take()).count();
-        let is_plain = scene.background_below.is_none() && scene.background_opacity >= 1.0;
-        (scene.background_below, scene.background_opacity) = (None, 1.0);
-        let legends = scene.all_cameras_mut().filter_map(|camera| camera.legend.take()).count();
-        let shows = std::mem::take(&mut scene.show).any();
-        scene.edges.take().is_some() || edges + legends > 0 || shows || !is_plain
-    }
-
     /// The file's name without its folder.
     pub(crate) fn name(&self) -> String {
         self.file.file_name().unwrap_or_default().to_string_lossy().into_owned()

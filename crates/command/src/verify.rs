@@ -8,6 +8,7 @@ use halfway::prelude::*;
 use halfway::reference::metrics::{Bars, Scale, Verdict, difference, judge, judge_on_grid};
 use halfway::reference::{Image, Oracle};
 use halfway::render::RenderError;
+use halfway::scene::options::remove_what_is_laid_over;
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::{DIFFERENT, Failure, STOPPED};
@@ -38,7 +39,7 @@ pub(crate) struct VerifyArgs {
 pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     args.drawing.input.without_picture()?;
     let mut input = SceneInput::read(&args.drawing, &args.drawing.options())?;
-    if input.remove_what_is_laid_over() {
+    if remove_what_is_laid_over(&mut input.scene) {
         eprintln!("note: judged without lines along edges and before an opaque background of one colour");
     }
     let sharing = input.sharing();

@@ -167,7 +167,11 @@ impl Recording {
 }
 
 /// Quantities of the surfaces that the oracle sees.
-fn of_oracle(world: &mut World, size: UVec2, quantities: &[Quantity]) -> Result<Vec<QuantityImage>, RecordError> {
+pub(crate) fn of_oracle(
+    world: &mut World,
+    size: UVec2,
+    quantities: &[Quantity],
+) -> Result<Vec<QuantityImage>, RecordError> {
     let averaged = [Quantity::Albedo, Quantity::Coverage];
     if let Some(quantity) = quantities.iter().find(|quantity| averaged.contains(quantity)) {
         return Err(RecordError::NotOfReference(*quantity));

@@ -9,11 +9,14 @@ use bevy_ecs::prelude::{Entity, Resource, World};
 use bevy_math::UVec2;
 use halfway_lighting::{Camera, CameraTurn, Encoding, Intensity, Legend, Load, Samples, SharedPart, current_camera};
 use halfway_reference::{Mode, Oracle, OracleError};
-use halfway_render::{Picture, Pixels, RenderError, draw_background, draw_kept, draw_legend, draw_lines, has_lines};
+use halfway_render::{
+    Picture, Pixels, Quantity, QuantityImage, RenderError, draw_background, draw_kept, draw_legend, draw_lines,
+    has_lines,
+};
 use image::DynamicImage;
 
 use crate::oracle_surfaces::{OracleFrame, sharing, surfaces};
-use crate::recording::{FrameToDraw, RecordError};
+use crate::recording::{FrameToDraw, RecordError, of_oracle};
 
 /// Draws frames with the reference renderer: in f64 on the CPU, without a graphics adapter.
 ///
@@ -77,6 +80,19 @@ impl ReferenceDrawing {
         let mut whole = whole.ok_or(RenderError::NoCamera)?;
         add_legend(app.world_mut(), &mut whole);
         Ok(whole)
+    }
+
+    /// Pictures of quantities of the frame that was drawn last, of `size` pixels.
+    ///
+    /// # Errors
+    /// [`RecordError::Oracle`], and [`RecordError::NotOfReference`] for a quantity that the reference renderer has not.
+    pub fn quantities(
+        &self,
+        app: &mut App,
+        size: UVec2,
+        quantities: &[Quantity],
+    ) -> Result<Vec<QuantityImage>, RecordError> {
+        of_oracle(app.world_mut(), size, quantities)
     }
 
     /// The picture of the camera to draw, over what is `kept` of other cameras.

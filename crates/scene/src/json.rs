@@ -3,10 +3,13 @@
 use serde::Serialize;
 use serde_path_to_error::{Path, Segment};
 
-use crate::check::KeyProblem;
+use crate::check::{KeyProblem, Limits};
 use crate::entry::{Entry, Read};
 use crate::error::SceneError;
+use crate::light::LightEntry;
 use crate::locate::{byte_of, key_before, line_and_column, value_at};
+use crate::object::ObjectEntry;
+use crate::view::CameraEntry;
 
 /// Reads the one value of a text.
 pub(crate) fn read<T: Entry>(text: &str, origin: &str) -> Result<T, SceneError> {
@@ -16,6 +19,24 @@ pub(crate) fn read<T: Entry>(text: &str, origin: &str) -> Result<T, SceneError> 
     parser.end().map_err(|error| located(&error, "", text, origin))?;
     Ok(value)
 }
+
+macro_rules! from_json {
+    ($($entry:ty),+) => {
+        $(impl $entry {
+            /// Reads the value from JSON, as it stands in a scene file. `origin` is the name that errors give the text.
+            ///
+            /// # Errors
+            /// [`SceneError::Text`], as [`SceneFile::from_json`](crate::SceneFile::from_json).
+            pub fn from_json(text: &str, origin: &str) -> Result<Self, SceneError> {
+                let value: Self = read(text, origin)?;
+                value.check(&Limits::Any).map_err(|problem| error_at(text, origin, problem))?;
+                Ok(value)
+            }
+        })+
+    };
+}
+
+from_json!(CameraEntry, LightEntry, ObjectEntry);
 
 /// The error about a value that was read and is invalid, at the place where it begins.
 pub(crate) fn error_at(text: &str, origin: &str, KeyProblem { key, message }: KeyProblem) -> SceneError {

@@ -55,6 +55,72 @@ pub struct Spawned {
     pub is_animated: bool,
 }
 
+impl Spawned {
+    /// Moves an object to where the matrix takes it. Returns whether it could: what shears is two entities, and has to be
+    /// spawned again; and so has an object that there is not.
+    pub fn place_object(&self, index: usize, world_from_object: &Mat4, world: &mut World) -> bool {
+        let Some(&entity) = self.objects.get(index) else { return false };
+        let Placement { outer, inner: None } = Placement::from_matrix(world_from_object) else { return false };
+        if world.get::<ChildOf>(entity).is_some() {
+            return false;
+        }
+        world.entity_mut(entity).insert(outer);
+        true
+    }
+
+    /// Gives a light the place and the colours of an entry. Returns whether it could: a light of another kind, or one that
+    /// is attached to something else, has to be spawned again.
+    pub fn place_light(&self, index: usize, entry: &LightEntry, world: &mut World) -> bool {
+        let Some(&entity) = self.lights.get(index) else { return false };
+        let (component, transform) = place(entry);
+        let is_kind = world.get_entity(entity).is_ok_and(|light| component.is_kind_of(light));
+        let is_attached = world.get::<ChildOf>(entity).is_some() || entry.attach != AttachEntry::World;
+        let is_plain = entry.animation.is_empty() && world.get::<Animated>(entity).is_none() && entry.layers.is_none();
+        if !is_kind || is_attached || !is_plain {
+            return false;
+        }
+        let mut entity = world.entity_mut(entity);
+        entity.insert(transform);
+        component.insert_into(&mut entity);
+        true
+    }
+
+    /// Gives the camera the place and the projection of an entry. Returns whether it could: one that frames the objects,
+    /// or has more keys than these, has to be spawned again.
+    pub fn place_camera(&self, entry: &CameraEntry, world: &mut World) -> bool {
+        let plain = CameraEntry { name: entry.name.clone(), legend: None, ..placed_as(entry) };
+        if plain != *entry || world.get::<Animated>(self.camera).is_some() {
+            return false;
+        }
+        let Some(mut camera) = world.get_mut::<Camera>(self.camera) else { return false };
+        camera.projection = entry.projection();
+        world.entity_mut(self.camera).insert(entry.transform());
+        true
+    }
+}
+
+/// The entry with its place and its projection alone.
+fn placed_as(entry: &CameraEntry) -> CameraEntry {
+    let CameraEntry { position, target, up, fov_y_deg, near, shift, aspect, pixel_aspect, zoom, height, far, .. } =
+        *entry;
+    let intrinsics = entry.intrinsics;
+    CameraEntry {
+        position,
+        target,
+        up,
+        fov_y_deg,
+        near,
+        shift,
+        aspect,
+        pixel_aspect,
+        zoom,
+        height,
+        far,
+        intrinsics,
+        ..CameraEntry::default()
+    }
+}
+
 /// Puts a scene into a world: camera, objects, lights, and the [`GlobalAmbient`] resource; and [`ViewTolerance`] and
 /// [`Legend`], where the scene has one.
 ///

@@ -5,7 +5,7 @@ use bevy_ecs::entity_disabling::Disabled;
 use bevy_ecs::name::Name;
 use bevy_ecs::query::{Added, Changed, Or, With};
 use bevy_ecs::system::{Query, SystemParam};
-use bevy_ecs::world::EntityWorldMut;
+use bevy_ecs::world::{EntityRef, EntityWorldMut};
 use bevy_transform::components::GlobalTransform;
 
 use super::{Kind, LightComponent};
@@ -22,6 +22,13 @@ macro_rules! light_queries {
                 match self {
                     $(Self::$kind(light) => entity.insert(light)),*
                 };
+            }
+
+            /// Whether an entity has a light of this kind.
+            pub fn is_kind_of(self, entity: EntityRef) -> bool {
+                match self {
+                    $(Self::$kind(_) => entity.contains::<super::$component>()),*
+                }
             }
         }
 

@@ -299,3 +299,15 @@ pub fn scene_of_models(models: Vec<LoadedModel>) -> SceneFile {
         ..SceneFile::default()
     }
 }
+
+/// Removes what is drawn over and behind a finished picture by the same code for all renderers, so that a judge of
+/// renderers has nothing to say about it: lines, but for those of models, legends, and backgrounds of more than one
+/// opaque colour. Returns whether there was any.
+pub fn remove_what_is_laid_over(scene: &mut SceneFile) -> bool {
+    let edges = scene.objects.iter_mut().filter_map(|object| object.edges.take()).count();
+    let is_plain = scene.background_below.is_none() && scene.background_opacity >= 1.0;
+    (scene.background_below, scene.background_opacity) = (None, 1.0);
+    let legends = scene.all_cameras_mut().filter_map(|camera| camera.legend.take()).count();
+    let shows = std::mem::take(&mut scene.show).any();
+    scene.edges.take().is_some() || edges + legends > 0 || shows || !is_plain
+}

@@ -41,6 +41,17 @@ fn one_of(names: &[String]) -> String {
     }
 }
 
+/// A colour as CSS has them, `#rrggbb`, `#rrggbbaa`, `white`: linear red, green and blue, and the opacity.
+///
+/// # Errors
+/// A sentence that says what was expected.
+pub fn css(text: &str) -> Result<[f32; 4], String> {
+    let color = csscolorparser::parse(text.trim());
+    let color = color.map_err(|_| format!("{text:?}: expected a colour such as #102030 or white"))?;
+    let [red, green, blue] = LinearRgba::from(Srgba::rgb(color.r, color.g, color.b)).to_f32_array_no_alpha();
+    Ok([red, green, blue, color.a])
+}
+
 /// `transparent`, a colour as CSS has them (`#rrggbb`, `#rrggbbaa`, `white`), or two, `white..skyblue`.
 ///
 /// # Errors
@@ -48,8 +59,8 @@ fn one_of(names: &[String]) -> String {
 pub fn background(text: &str) -> Result<Background, String> {
     let expected = || "expected transparent, a colour such as #102030 or white, or two as white..skyblue".to_owned();
     let color = |text: &str| -> Result<([f32; 3], f32), String> {
-        let color = csscolorparser::parse(text.trim()).map_err(|_| expected())?;
-        Ok((LinearRgba::from(Srgba::rgb(color.r, color.g, color.b)).to_f32_array_no_alpha(), color.a))
+        let [red, green, blue, opacity] = css(text).map_err(|_| expected())?;
+        Ok(([red, green, blue], opacity))
     };
     let (above, below) = text.split_once("..").map_or((text, None), |(above, below)| (above, Some(below)));
     let (above, opacity) = color(above)?;

@@ -1,0 +1,65 @@
+//! The reference renderer, and its judgement of pictures.
+
+use std::ops::ControlFlow;
+
+use halfway::prelude::*;
+use halfway::record::{FrameToDraw, ReferenceDrawing};
+use halfway::reference::Oracle;
+use halfway::reference::metrics::{Bars, judge};
+
+use crate::drawing::Recipe;
+use crate::pictures::intensities;
+use crate::work::Failure;
+
+/// The picture that the reference renderer draws of an App, and its quantities.
+pub(crate) fn reference_picture(
+    app: &mut App,
+    size: UVec2,
+    pixels: Pixels,
+    quantities: &[Quantity],
+) -> Result<(Picture, Vec<QuantityImage>), Failure> {
+    let drawing = ReferenceDrawing::default();
+    let frame = FrameToDraw { number: 0, size, pixels };
+    let picture = drawing.picture(app, frame, &|_, _| ControlFlow::Continue(())).map_err(Failure::work)?;
+    let images = if quantities.is_empty() {
+        Vec::new()
+    } else {
+        drawing.quantities(app, size, quantities).map_err(Failure::work)?
+    };
+    Ok((picture, images))
+}
+
+/// The judgement of a picture.
+pub(crate) struct Judged {
+    pub(crate) is_within: bool,
+    pub(crate) worst: f64,
+    pub(crate) at: Option<(u32, u32)>,
+    pub(crate) equal: f64,
+    pub(crate) edges: f64,
+    pub(crate) bad: usize,
+    pub(crate) sentence: String,
+}
+
+/// Judges a picture of the scene; no pixel may differ by more than `most` steps of 1/255 from every colour that it may
+/// show.
+pub(crate) fn judge_given(recipe: &Recipe, picture: &Picture, most: f64) -> Result<Judged, Failure> {
+    let (mut app, _) = recipe.play()?;
+    app.update();
+    let encoding = recipe.scene.output;
+    let (is_clamped, bars) = match picture {
+        Picture::Byte(_) => (true, Bars { most, worst: most, equal: 0.0, ..Bars::bytes(encoding) }),
+        Picture::Float(_) => (false, Bars::FLOAT),
+    };
+    let size = UVec2::from_array(recipe.scene.size);
+    let oracle = Oracle::new(app.world_mut(), size).map_err(Failure::work)?.with_clamping(is_clamped);
+    let found = judge(&oracle, &oracle.draw(), &intensities(picture, encoding), bars).map_err(Failure::input)?;
+    Ok(Judged {
+        is_within: found.is_within(),
+        worst: found.worst,
+        at: found.at.map(|worst| worst.at),
+        equal: found.equal,
+        edges: found.edges,
+        bad: found.bad,
+        sentence: found.to_string(),
+    })
+}
