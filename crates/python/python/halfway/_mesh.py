@@ -50,9 +50,11 @@ class Mesh:
         for key, values in per_vertex.items():
             if values is not None and len(values) != len(positions):
                 raise ValueError(f"{key}: {len(values)} rows; expected one for each of the {len(positions)} vertices")
+        if properties is not None and not isinstance(properties, Mapping):
+            raise TypeError(f"properties: {type(properties).__name__}; expected a dictionary of arrays")
         numbers = []
-        for key, values in (properties or {}).items():
-            array = floats(values, f"properties[{key!r}]", None)
+        for key, given in (properties or {}).items():
+            array = floats(given, f"properties[{key!r}]", None)
             is_of_faces = len(array) == given_faces and len(array) != len(positions)
             if not is_of_faces and len(array) != len(positions):
                 raise ValueError(f"properties[{key!r}]: {len(array)} numbers; expected one for each of the "
@@ -217,7 +219,7 @@ def _of_trimesh_scene(scene: Any) -> Iterator[Placed]:
 def _of_trimesh(mesh: Any) -> Placed:
     given: dict[str, Any] = {}
     keys: dict[str, Any] = {}
-    visual = getattr(mesh, "visual", None)
+    visual: Any = getattr(mesh, "visual", None)
     kind = getattr(visual, "kind", None)
     if kind == "vertex":
         given["colors"] = np.asarray(visual.vertex_colors)

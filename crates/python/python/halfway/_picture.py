@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _halfway
 
 
-class Picture(np.ndarray):  # type: ignore[type-arg]
+class Picture(np.ndarray[Any, np.dtype[Any]]):
     """An array of shape (height, width, 4), the top row first: red, green, blue and opacity.
 
     Numbers of type `uint8` are encoded (sRGB unless `encoding` says raw), those of type `float32` are linear
@@ -45,7 +45,7 @@ class Picture(np.ndarray):  # type: ignore[type-arg]
     def __getitem__(self, key: Any) -> Any:
         return np.asarray(self)[key]
 
-    def __array_wrap__(self, array: npt.NDArray[Any], *_: Any) -> Any:  # type: ignore[override]
+    def __array_wrap__(self, array: npt.NDArray[Any], *_: Any) -> Any:
         return np.asarray(array)[()] if array.ndim == 0 else np.asarray(array)
 
     def __reduce__(self) -> Any:
@@ -93,12 +93,10 @@ def as_picture(picture: npt.ArrayLike | str | os.PathLike[str]) -> Picture:
     return Picture(picture)
 
 
-def from_pixels(width: int, height: int, is_float: bool, pixels: bytearray, encoding: str = "srgb") -> Picture:
+def from_pixels(width: int, height: int, is_float: bool, pixels: bytearray) -> Picture:
     """The picture of what the compiled half has drawn; the memory is not copied."""
     array = np.frombuffer(pixels, np.float32 if is_float else np.uint8).reshape(height, width, 4)
-    picture = array.view(Picture)
-    picture.encoding = encoding
-    return picture
+    return array.view(Picture)
 
 
 def open_picture(file: str | os.PathLike[str]) -> Picture:

@@ -14,13 +14,13 @@ from ._picture import Picture
 from ._scene import Outputs, Scene
 
 
-def scene_of(mesh: Any, faces: npt.ArrayLike | None = None, poses: Sequence[Any] | None = None) -> Scene:
+def scene_of(mesh: Any, triangles: npt.ArrayLike | None = None, poses: Sequence[Any] | None = None) -> Scene:
     """The scene of what users have: a scene as it is, else meshes before charcoal, in the studio's light."""
     if isinstance(mesh, Scene):
         return mesh
     if isinstance(mesh, (str, os.PathLike)) and os.fspath(mesh).lower().endswith(".json"):
         return Scene(mesh)
-    if isinstance(mesh, Mesh) and faces is None and poses is None:
+    if isinstance(mesh, Mesh) and triangles is None and poses is None:
         # A mesh keeps what was made of it to be drawn.
         if mesh._shown is None:
             scene = Scene()
@@ -29,53 +29,53 @@ def scene_of(mesh: Any, faces: npt.ArrayLike | None = None, poses: Sequence[Any]
         shown: Scene = mesh._shown
         return shown
     scene = Scene()
-    for part in placed(mesh, faces, poses):
+    for part in placed(mesh, triangles, poses):
         scene.add(part.mesh, pose=part.pose, **part.keys)
     return scene
 
 
 @overload
-def render(mesh: Any, faces: npt.ArrayLike | None = ..., *, size: object = ..., camera: Any = ..., time: float = ...,
+def render(mesh: Any, triangles: npt.ArrayLike | None = ..., /, *, size: object = ..., camera: Any = ..., time: float = ...,
            floats: bool = ..., poses: Sequence[Any] | None = ..., outputs: None = ...,
            **options: Unpack[Options]) -> Picture: ...
 
 
 @overload
-def render(mesh: Any, faces: npt.ArrayLike | None = ..., *, size: object = ..., camera: Any = ..., time: float = ...,
+def render(mesh: Any, triangles: npt.ArrayLike | None = ..., /, *, size: object = ..., camera: Any = ..., time: float = ...,
            floats: bool = ..., poses: Sequence[Any] | None = ..., outputs: Sequence[str],
            **options: Unpack[Options]) -> Outputs: ...
 
 
-def render(mesh: Any, faces: npt.ArrayLike | None = None, *, size: object = None, camera: Any = None,
+def render(mesh: Any, triangles: npt.ArrayLike | None = None, /, *, size: object = None, camera: Any = None,
            time: float = 0.0, floats: bool = False, poses: Sequence[Any] | None = None,
            outputs: Sequence[str] | None = None, **options: Unpack[Options]) -> Picture | Outputs:
     """Draws a picture of a mesh, an array of shape (height, width, 4) and type uint8.
 
-    `mesh` and `faces` are arrays of shape (n, 3); or `mesh` alone is a path, a `Mesh`, a `Scene`, a mesh of trimesh,
+    `mesh` and `triangles` are arrays of shape (n, 3), vertices and indices of vertices; or `mesh` alone is a path, a `Mesh`, a `Scene`, a mesh of trimesh,
     pyvista, Open3D or meshio, or a list of any of them, with `poses`, a matrix of 4 by 4 for each. What is not said is
     chosen so that the mesh is seen well: the camera, the lights, the normals, the background. The other arguments are
     those of `Scene.render`.
     """
-    scene = scene_of(mesh, faces, poses)
-    return scene.render(size=size, camera=camera, time=time, floats=floats, outputs=outputs, **options)  # type: ignore[call-overload, no-any-return]
+    scene = scene_of(mesh, triangles, poses)
+    return scene.render(size=size, camera=camera, time=time, floats=floats, outputs=outputs, **options)
 
 
-def reference(mesh: Any, faces: npt.ArrayLike | None = None, *, poses: Sequence[Any] | None = None,
+def reference(mesh: Any, triangles: npt.ArrayLike | None = None, /, *, poses: Sequence[Any] | None = None,
               **arguments: Any) -> Any:
     """As `render`, by the reference renderer: every pixel in 64-bit arithmetic, slowly."""
-    return scene_of(mesh, faces, poses).reference(**arguments)
+    return scene_of(mesh, triangles, poses).reference(**arguments)
 
 
-def sheet(mesh: Any, faces: npt.ArrayLike | None = None, *, views: Sequence[str] | str = ("front", "right", "top", "iso"),
+def sheet(mesh: Any, triangles: npt.ArrayLike | None = None, /, *, views: Sequence[str] | str = ("front", "right", "top", "iso"),
           size: object = (400, 300), poses: Sequence[Any] | None = None, **options: Unpack[Options]) -> Picture:
     """Several views of a mesh on one sheet with captions, each of `size` pixels."""
-    return scene_of(mesh, faces, poses).sheet(views, size=size, **options)
+    return scene_of(mesh, triangles, poses).sheet(views, size=size, **options)
 
 
-def turntable(mesh: Any, faces: npt.ArrayLike | None = None, *, frames: int = 36, size: object = None,
+def turntable(mesh: Any, triangles: npt.ArrayLike | None = None, /, *, frames: int = 36, size: object = None,
               poses: Sequence[Any] | None = None, **options: Unpack[Options]) -> list[Picture]:
     """Pictures of a camera that turns once around a mesh."""
-    return scene_of(mesh, faces, poses).turntable(frames, size=size, **options)
+    return scene_of(mesh, triangles, poses).turntable(frames, size=size, **options)
 
 
 def animate(mesh: Any, file: str | os.PathLike[str], *, frames: int | None = None, fps: int = 30, size: object = None,

@@ -136,8 +136,7 @@ class SceneCamera(Entry):
 
     @position.setter
     def position(self, position: Any) -> None:
-        self._data.pop("view", None)
-        self.set(position=numbers(position, "position", 3))
+        self.set(view=None, position=numbers(position, "position", 3))
 
     @property
     def target(self) -> npt.NDArray[np.float32]:
@@ -146,13 +145,11 @@ class SceneCamera(Entry):
 
     @target.setter
     def target(self, target: Any) -> None:
-        self._data.pop("view", None)
-        self.set(target=numbers(target, "target", 3))
+        self.set(view=None, target=numbers(target, "target", 3))
 
     def place(self, pose: npt.ArrayLike) -> None:
         """Moves it by a matrix of 4 by 4 from the camera to the world."""
-        self._data.pop("view", None)
-        self.set(**placed_by(pose))
+        self.set(view=None, **placed_by(pose))
 
     def _changed(self) -> None:
         if self._scene._data.get("camera") is self._data and not self._scene._data.get("cameras"):
@@ -216,7 +213,8 @@ class Scene:
     def add(
         self,
         mesh: Any,
-        faces: npt.ArrayLike | None = None,
+        triangles: npt.ArrayLike | None = None,
+        /,
         *,
         name: str | None = None,
         pose: npt.ArrayLike | None = None,
@@ -233,7 +231,7 @@ class Scene:
         if isinstance(mesh, Mapping):
             parts = [Placed(mesh, None, {})]  # type: ignore[arg-type]
         else:
-            parts = placed(mesh, faces)
+            parts = placed(mesh, triangles)
         if not parts:
             raise ValueError("mesh: there are no meshes in it")
         added = []
@@ -313,21 +311,21 @@ class Scene:
         self._data["camera"] = self._checked_camera(camera)
         self._forget()
 
-    def _named(self) -> Iterator[Entry]:
+    def _entries(self) -> Iterator[Entry]:
         yield from self.objects
         yield from self.lights
         cameras = [self._data.get("camera"), *self._data.get("cameras", [])]
         yield from (SceneCamera(self, data) for data in cameras if isinstance(data, dict))
 
     def __getitem__(self, name: str) -> Any:
-        for entry in self._named():
+        for entry in self._entries():
             if entry.name == name:
                 return entry
-        known = ", ".join(repr(entry.name) for entry in self._named() if entry.name) or "none has a name"
+        known = ", ".join(repr(entry.name) for entry in self._entries() if entry.name) or "none has a name"
         raise KeyError(f"no object, light or camera is named {name!r}; there are {known}")
 
     def _expect_new_name(self, name: str | None) -> None:
-        if name is not None and any(entry.name == name for entry in self._named()):
+        if name is not None and any(entry.name == name for entry in self._entries()):
             raise ValueError(f"name: {name!r} is taken; expected one that no other object, light or camera has")
 
     def get(self, key: str) -> Any:
@@ -459,7 +457,8 @@ class Scene:
             self._warn(drawing.take_warnings())
             if why:
                 self._warn([f"the picture shows nothing: {why}"])
-        picture = from_pixels(*pixels, encoding=self._data.get("output", "srgb"))
+        picture = from_pixels(*pixels)
+        picture.encoding = self._data.get("output", "srgb")
         if outputs is None:
             return picture
         arrays = {name: _quantity(picture.shape, *images[name]) for name in wanted}
@@ -491,8 +490,7 @@ class Scene:
         frames, frame f at f / fps seconds."""
         count = 36 if frames is None else frames
         _expect_frames(count)
-        is_animated = '"animation"' in as_json(self._data)
-        if is_animated:
+        if any(entry.get("animation") for entry in self._entries()):
             pictures = [self.render(size=size, camera=camera, time=f / fps, **options) for f in range(count)]
         else:
             pictures = self.turntable(count, size=size, **options)
