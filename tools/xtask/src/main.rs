@@ -6,6 +6,7 @@ mod chores;
 mod commands;
 mod display;
 mod failure;
+mod licences;
 mod screen;
 mod setup;
 mod tally;
@@ -43,6 +44,7 @@ enum Chore {
     /// Without a graphics card the CPU draws.
     #[command(verbatim_doc_comment)]
     Soak(chores::program::Arguments),
+    Wheel(chores::wheel::Options),
     /// Draw random scenes, judge each by the reference renderer, and reduce failures
     ///
     /// A failure is printed and written to out/wild/ as a scene file. The same seed means the same scenes on every
@@ -67,6 +69,7 @@ impl Chore {
             Self::Readme(options) => chores::readme::run(&options),
             Self::Screen(options) => chores::screen::run(&options),
             Self::Soak(arguments) => chores::program::soak(&arguments),
+            Self::Wheel(options) => chores::wheel::run(&options),
             Self::Wild(arguments) => chores::program::wild(&arguments),
         }
     }
@@ -107,6 +110,8 @@ mod tests {
             "screen cargo test --release --test window",
             "soak",
             "soak --frames 3000",
+            "wheel --test",
+            "wheel --target aarch64-unknown-linux-gnu",
             "wild",
             "wild --seed 7 --scenes 1000 --output out/wild",
             "wild --first 12",

@@ -20,7 +20,7 @@ const fn rule(name: &'static str, imports: &'static [&'static str], not: &'stati
 const NO_GPU: &[&str] = &["wgpu", "naga", "winit"];
 const NO_WINDOW: &[&str] = &["winit"];
 /// The rules of docs/architecture.md; `*` stands for every crate further up in this table.
-const RULES: [CrateRule; 16] = [
+const RULES: [CrateRule; 17] = [
     rule("halfway_asset", &[], NO_GPU),
     rule("halfway_mesh", &["halfway_asset"], NO_GPU),
     rule("halfway_texture", &["halfway_asset"], NO_GPU),
@@ -44,6 +44,7 @@ const RULES: [CrateRule; 16] = [
     rule("halfway_chart", &["*"], NO_WINDOW),
     rule("halfway_wild", &["halfway"], NO_WINDOW),
     rule("halfway_command", &["*"], NO_WINDOW),
+    rule("halfway_python", &["halfway"], NO_GPU),
     rule("xtask", &[], NO_GPU),
 ];
 

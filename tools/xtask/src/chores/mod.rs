@@ -15,3 +15,4 @@ pub(crate) mod program;
 pub(crate) mod readme;
 pub(crate) mod screen;
 pub(crate) mod test;
+pub(crate) mod wheel;
