@@ -110,7 +110,7 @@ fn charted(inputs: &[PathBuf]) -> Result<Vec<ChartedScene>, Failure> {
 /// A scene file or a model.
 fn from_file(file: &Path) -> Result<ChartedScene, Failure> {
     let mut input = SceneInput::open(file)?;
-    input.remove_what_is_laid_over();
+    halfway::scene::options::remove_what_is_laid_over(&mut input.scene);
     let size = UVec2::from_array(input.scene.size);
     // Errors are reported now, before measuring begins.
     input.spawn(App::new().add_plugins(HalfwayPlugins::reference()))?;

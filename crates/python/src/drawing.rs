@@ -96,17 +96,14 @@ impl Stage {
             // Its threads are the parent's, and would be waited for.
             std::mem::forget(self.played.take());
         }
-        let (mut app, spawned) = match self.played.take() {
-            Some(Played { app: kept, spawned, .. }) => {
-                let mut app = App::empty();
-                *app.main_mut() = kept;
-                (app, spawned)
-            }
-            None => {
-                let (app, spawned) = self.recipe.play()?;
-                self.warnings.extend(spawned.warnings.iter().cloned());
-                (app, spawned)
-            }
+        let (mut app, spawned) = if let Some(Played { app: kept, spawned, .. }) = self.played.take() {
+            let mut app = App::empty();
+            *app.main_mut() = kept;
+            (app, spawned)
+        } else {
+            let (app, spawned) = self.recipe.play()?;
+            self.warnings.extend(spawned.warnings.iter().cloned());
+            (app, spawned)
         };
         // Where the work panics, the App is not kept.
         let done = work(&mut app, &spawned, &self.recipe);

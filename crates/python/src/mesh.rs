@@ -112,7 +112,7 @@ impl Mesh {
     }
 
     /// The vertices (f32, where they stand in the model) and the triangles (u32) of all parts, one after the other.
-    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyByteArray>, Bound<'py, PyByteArray>)> {
+    fn arrays<'py>(&self, py: Python<'py>) -> (Bound<'py, PyByteArray>, Bound<'py, PyByteArray>) {
         let (mut vertices, mut faces, mut first) = (Vec::new(), Vec::new(), 0);
         for part in &self.model.parts {
             let placed = part.mesh.positions().iter().map(|&p| part.world_from_part.transform_point3(p));
@@ -120,7 +120,7 @@ impl Mesh {
             faces.extend(part.mesh.indices().iter().flat_map(|index| (index + first).to_ne_bytes()));
             first += part.mesh.positions().len() as u32;
         }
-        Ok((PyByteArray::new(py, &vertices), PyByteArray::new(py, &faces)))
+        (PyByteArray::new(py, &vertices), PyByteArray::new(py, &faces))
     }
 }
 

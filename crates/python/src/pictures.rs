@@ -103,7 +103,7 @@ fn png<'py>(py: Python<'py>, pixels: Given, size: (u32, u32), encoding_name: &st
 
 /// Reads a PNG (bytes, even where it has 16 bits), or an EXR (floats).
 #[pyfunction]
-fn open<'py>(py: Python<'py>, file: PathBuf) -> PyResult<Pixels<'py>> {
+fn open(py: Python<'_>, file: PathBuf) -> PyResult<Pixels<'_>> {
     let picture = detached(py, move || {
         let name = file.display().to_string();
         let opened = File::open(&file).map_err(|error| Failure::Input(format!("{name}: cannot be read: {error}")))?;

@@ -289,8 +289,9 @@ pub(super) fn map(text: &str) -> Result<ColorMap, String> {
     choice(text)
 }
 
+/// Any words but none.
 pub(super) fn words(text: &str) -> Result<String, String> {
-    Ok(text.to_owned())
+    if text.is_empty() { Err("expected a name or a title".to_owned()) } else { Ok(text.to_owned()) }
 }
 
 pub(super) fn show(text: &str) -> Result<Show, String> {

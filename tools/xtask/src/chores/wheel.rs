@@ -14,7 +14,7 @@ use crate::setup::{Need, PYTHON, Setup};
 /// Build the package for Python, and with --test try it in an empty environment
 ///
 /// The wheel lies in target/wheels: for Python 3.11 and newer, on every Linux since 2014 (glibc 2.17). maturin, and Zig
-/// to link against so old a library, are installed from PyPI into target/wheel-tools. For another processor,
+/// to link against so old a library, are installed from `PyPI` into target/wheel-tools. For another processor,
 /// `rustup target add TRIPLE` comes first.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
@@ -31,7 +31,7 @@ pub(crate) struct Options {
 
 /// What maturin is asked for: the oldest Linux that the compiler supports.
 const COMPATIBILITY: &str = "manylinux2014";
-/// Of PyPI, what builds, and what tests beside it.
+/// Of `PyPI`, what builds, and what tests beside it.
 const BUILDERS: [&str; 2] = ["maturin>=1.16,<2", "ziglang>=0.13,<0.18"];
 const TESTERS: [&str; 3] = ["pytest>=7,<10", "hypothesis>=6,<7", "mypy>=1.15,<3"];
 /// The most bytes of a wheel.
@@ -84,7 +84,7 @@ fn try_out(wheel: &Path, package: &Path) -> Result {
     step("types", python().args(["-m", "mypy"]).current_dir(package))
 }
 
-/// An environment of Python in the folder `target`, with packages of PyPI.
+/// An environment of Python in the folder `target`, with packages of `PyPI`.
 fn environment(name: &str, packages: &[&str]) -> Result<PathBuf> {
     let folder = root().join("target").join(name);
     if !folder.join("bin/python").is_file() {
