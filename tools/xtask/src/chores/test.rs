@@ -6,6 +6,7 @@ use std::time::Instant;
 use clap::Args;
 
 use super::adapters::{self, CHOICE, ON_THE_CPU, SHARE, units_about_drivers, without_drivers};
+use super::wheel;
 use crate::cargo::{cargo, duration, root, step};
 use crate::checks::metadata::test_programs;
 use crate::failure::{Failure, Result};
@@ -29,6 +30,10 @@ pub(crate) struct Options {
     /// Run every test, on every adapter; install what they need
     #[arg(long)]
     all: bool,
+    /// Test the package for Python beside the packages of others that it reads or stands in for; they are downloaded from
+    /// `PyPI` into target/wheel-peers
+    #[arg(long, conflicts_with = "all")]
+    peers: bool,
     /// Have each driver draw a share of the rows with textures, whose shaders take minutes to compile, and not all
     #[arg(long, requires = "all")]
     shared: bool,
@@ -56,6 +61,9 @@ These run, too, and what they need is installed, by
 
 /// Runs the tests that were asked for.
 pub(crate) fn run(options: &Options) -> Result {
+    if options.peers {
+        return wheel::beside_peers(options.setup);
+    }
     by_the_cpu()?;
     if options.all {
         return on_drivers(options);

@@ -34,6 +34,23 @@ const COMPATIBILITY: &str = "manylinux2014";
 /// Of `PyPI`, what builds, and what tests beside it.
 const BUILDERS: [&str; 2] = ["maturin>=1.16,<2", "ziglang>=0.13,<0.18"];
 const TESTERS: [&str; 3] = ["pytest>=7,<10", "hypothesis>=6,<7", "mypy>=1.15,<3"];
+/// The packages that the tests in `crates/python/tests/peers` are about.
+const PEERS: [&str; 14] = [
+    "trimesh",
+    "pyvista",
+    "meshio",
+    "open3d",
+    "mujoco",
+    "pyrender",
+    "pyglet<2",
+    "dask[distributed]",
+    "ray[data]",
+    "pillow",
+    "nbclient",
+    "nbformat",
+    "ipykernel",
+    "ipywidgets",
+];
 /// The most bytes of a wheel.
 const MOST: u64 = 5_000_000;
 
@@ -45,6 +62,29 @@ fn own() -> String {
 
 /// Builds, and tries.
 pub(crate) fn run(options: &Options) -> Result {
+    let wheel = built(options)?;
+    if options.test { try_out(&wheel, &root().join("crates/python")) } else { Ok(()) }
+}
+
+/// Tests the package beside those of others.
+pub(crate) fn beside_peers(setup: Setup) -> Result {
+    let wheel = built(&Options { setup, target: own(), test: false })?;
+    let tried = environment("wheel-peers", &["--force-reinstall", "--no-deps", &wheel.to_string_lossy()])?;
+    let python = || Command::new(tried.join("bin/python"));
+    let install = ["-m", "pip", "install", "-q", "--disable-pip-version-check"];
+    step("what tests", python().args(install).args(TESTERS).arg("numpy"))?;
+    for peer in PEERS {
+        // One that is not there for this Python is left out by its tests, which say so.
+        if let Err(failure) = step(peer, python().args(install).arg(peer)) {
+            eprintln!("warning: {failure}");
+        }
+    }
+    let tests = root().join("crates/python/tests/peers");
+    step("tests", python().args(["-m", "pytest", "-q", "-rs"]).current_dir(tests))
+}
+
+/// Builds the wheel.
+fn built(options: &Options) -> Result<PathBuf> {
     if !cfg!(target_os = "linux") {
         return Err(Failure::new("on other systems than Linux: maturin build --profile wheel, in crates/python"));
     }
@@ -67,7 +107,7 @@ pub(crate) fn run(options: &Options) -> Result {
     if bytes > MOST {
         return Err(Failure::new(format!("the wheel has {bytes} bytes; expected at most {MOST}")));
     }
-    if options.test { try_out(&wheel, &package) } else { Ok(()) }
+    Ok(wheel)
 }
 
 /// Installs the wheel into an environment of its own, and runs the tests.
