@@ -216,7 +216,7 @@ class Scene:
     def add(
         self,
         mesh: Any,
-        faces: npt.ArrayLike | None = None,
+        faces: npt.ArrayLike | str | None = None,
         *,
         name: str | None = None,
         pose: npt.ArrayLike | None = None,
@@ -226,6 +226,9 @@ class Scene:
         """Adds an object: arrays, a path, a mesh of this or another package, or a surface by its key, such as
         `{"teapot": {"divisions": 8}}`. `keys` are those of objects in scene files: material, shading, faces, layers,
         edges, maps and so on. Of meshes that come with several parts it returns the first."""
+        if isinstance(faces, str):
+            # The key of this name: which sides are shown.
+            keys["faces"], faces = faces, None
         if color is not None:
             from ._parts import Material
 
