@@ -22,7 +22,7 @@ These are left out:
 - the far plane of perspective cameras: what lies beyond is drawn;
 - the flags of `renderer.scene`.
 
-Where the light on a texture is above 1, MuJoCo holds it to 1 before the texture, halfway after it. An orthographic camera
+Light above 1 at a corner or on a texture is held to 1 there by MuJoCo, by halfway in the picture. An orthographic camera
 sees highlights along its axis. Planes are lit at each pixel, MuJoCo's at the corners of their grid, which of a plane without end are far apart. Where shapes meet at one depth, the one that is seen may
 be another.
 """
@@ -205,8 +205,18 @@ def _mesh(model: Any, number: int) -> Shape:
     if (coordinates := int(model.mesh_texcoordadr[number])) >= 0:
         of_uv = np.asarray(model.mesh_facetexcoord[start:start + faces]).reshape(-1)
         uvs = np.asarray(model.mesh_texcoord[coordinates:coordinates + int(model.mesh_texcoordnum[number])], float)[of_uv]
-    own = np.arange(len(corners)).reshape(-1, 3)
-    return vertices[corners], own, all_normals[of_normal], uvs
+    placed, chosen = vertices[corners], all_normals[of_normal]
+    of_face = np.repeat(_face_normals(placed), 3, axis=0)
+    # As in MuJoCo, a corner whose normal is far from that of its face has the face's.
+    is_far = (chosen * of_face).sum(axis=1) < 0.8
+    chosen[is_far] = of_face[is_far]
+    return placed, np.arange(len(corners)).reshape(-1, 3), chosen, uvs
+
+
+def _face_normals(placed: Array) -> Array:
+    corners = placed.reshape(-1, 3, 3)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30))
 
 
 def _hull(model: Any, number: int) -> Shape:
@@ -220,11 +230,8 @@ def _hull(model: Any, number: int) -> Shape:
     corners_of, faces_of = int(graph[0]), int(graph[1])
     begin = 2 + 3 * corners_of + 3 * faces_of
     faces = graph[begin:begin + 3 * faces_of].reshape(-1, 3)
-    corners = vertices[faces.reshape(-1)].reshape(-1, 3, 3)
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
-    own = np.arange(3 * len(faces)).reshape(-1, 3)
-    return corners.reshape(-1, 3), own, np.repeat(normals, 3, axis=0), None
+    placed = vertices[faces.reshape(-1)]
+    return placed, np.arange(len(placed)).reshape(-1, 3), np.repeat(_face_normals(placed), 3, axis=0), None
 
 
 def _texture(model: Any, number: int) -> Array:

@@ -11,8 +11,8 @@
 Names, arguments and results are pyrender's. Silhouettes, depth and segmentation are the same but for pixels at edges.
 These differ:
 
-- Materials are classic ones that look about like pyrender's metallic-roughness ones, as halfway reads glTF: no Fresnel
-  term, no masking term. Meshes with an image have a fixed, weak highlight, as the metallic and roughness factors then have
+- Materials are classic ones that look about like pyrender's metallic-roughness ones: a Blinn–Phong highlight as wide and,
+  seen from its middle, as bright as pyrender's; no Fresnel term, no masking term. Meshes with an image have a fixed, weak highlight, as the metallic and roughness factors then have
   no place; normal, occlusion, emissive and metallic-roughness textures are left out, with a warning.
 - There are no shadows: SHADOWS_DIRECTIONAL, SHADOWS_POINT and SHADOWS_SPOT warn once.
 - All lights of a scene light every mesh; pyrender takes the nearest four of each kind.
@@ -285,14 +285,14 @@ class MetallicRoughnessMaterial(Material):
         self.roughnessFactor = 1.0 if roughnessFactor is None else float(roughnessFactor)
 
     def _classic(self) -> dict[str, Any]:
-        """The classic material that looks about like it, as halfway reads it from glTF."""
+        """The classic material that looks about like it. The exponent 2/α² − 2 is that of halfway's reading of glTF; the peak
+        is the one of pyrender's distribution, D/4 = 1/(4πα²), as intensities here are over π."""
         base = np.clip(np.asarray(self.baseColorFactor, float), 0, 1)
         metallic, roughness = np.clip([self.metallicFactor, self.roughnessFactor], 0, 1)
-        alpha = max(float(roughness) ** 2, 1e-6)
+        alpha = max(float(roughness), 0.04) ** 2
         shininess = float(np.clip(2 / (alpha * alpha) - 2, 1, 10_000))
         f0 = 0.04 + (base[:3] - 0.04) * metallic
-        largest = float(f0.max())
-        peak = max(min((shininess + 8) / 8, 1 / largest), 1.0) if largest > 0 else 1.0
+        peak = 1 / (4 * alpha * alpha)
         return {
             "ambient": base[:3].tolist(), "diffuse": (base[:3] * (1 - metallic)).tolist(),
             "specular": (f0 * peak).tolist(), "emission": np.asarray(self.emissiveFactor, float).tolist(),
