@@ -126,12 +126,21 @@ fn samples() -> impl TypedValueParser<Value = u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::Parser;
+    use clap::{CommandFactory, Parser};
 
     #[derive(Parser)]
     struct Line {
         #[command(flatten)]
         look: DrawingArgs,
+    }
+
+    #[test]
+    fn the_options_of_scenes_have_the_same_names_here() {
+        let command = Line::command();
+        let known: Vec<&str> = command.get_arguments().filter_map(clap::Arg::get_long).collect();
+        for name in SceneOptions::NAMES {
+            assert!(known.contains(&name.replace('_', "-").as_str()), "{name}");
+        }
     }
 
     #[test]

@@ -28,11 +28,6 @@ def test_the_recipes_draw_what_the_page_shows(tmp_path, monkeypatch):
         assert (halfway.open(tmp_path / name) == halfway.open(PICTURES / name)).all(), name
 
 
-def test_the_options_are_named_as_the_command_names_them():
-    named = re.findall(r"--([a-z-]+)", (ROOT / "docs/guide.md").read_text(encoding="utf-8"))
-    assert {"view", "up", "background"} <= set(named) & {name.replace("_", "-") for name in halfway.OPTIONS}
-
-
 if __name__ == "__main__":
     # Makes the pictures of the page again.
     import os

@@ -9,6 +9,7 @@
 from . import equations
 from ._arguments import Options
 from ._halfway import OPTIONS, OUTPUTS, PRESETS, __version__
+from ._golden import check
 from ._mesh import Mesh
 from ._parts import Camera, DirectionalLight, HemisphereLight, Light, Material, PointLight, SpotLight
 from ._picture import Comparison, Picture, compare, save_animation
@@ -20,6 +21,6 @@ from .equations import blinn_phong, phong
 __all__ = [
     "OPTIONS", "OUTPUTS", "PRESETS", "Camera", "Comparison", "DirectionalLight", "HemisphereLight", "Light", "Material",
     "Mesh", "Options", "Picture", "PointLight", "Scene", "SceneCamera", "SceneLight", "SceneObject", "SceneWarning",
-    "SpotLight", "__version__", "animate", "blinn_phong", "compare", "equations", "open", "phong", "reference", "render",
+    "SpotLight", "__version__", "animate", "blinn_phong", "check", "compare", "equations", "open", "phong", "reference", "render",
     "save_animation", "sheet", "turntable", "verify",
 ]
