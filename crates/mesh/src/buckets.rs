@@ -56,7 +56,9 @@ impl Buckets {
                 first = end as usize;
             }
         }
-        parts.push(first..self.things.len());
+        if first < self.things.len() {
+            parts.push(first..self.things.len());
+        }
         parts
     }
 
