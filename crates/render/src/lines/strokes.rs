@@ -17,6 +17,7 @@ use halfway_lighting::{
     VertexColors,
 };
 use halfway_mesh::{Lines, Lines3d, SpawnOrder};
+use std::sync::Once;
 
 type Strokes<'w, 's> = Query<
     'w,
@@ -120,14 +121,26 @@ impl Lighting {
                 refused.get_or_insert_with(|| RenderError::Invalid { entity: label(entity, name), source });
             }
         });
-        match refused {
-            Some(error) => Err(error),
-            None => {
-                let ambient = ambient.copied().unwrap_or_default().ga();
-                Ok(Self { lights, ambient, eye: camera.eye(), policy: camera.intensity })
-            }
+        if let Some(error) = refused {
+            return Err(error);
         }
+        if matches!(camera.intensity, Intensity::Renormalize { .. }) {
+            log_undivided();
+        }
+        let ambient = ambient.copied().unwrap_or_default().ga();
+        Ok(Self { lights, ambient, eye: camera.eye(), policy: camera.intensity })
     }
+}
+
+/// Only the drawer of a picture knows its divisor.
+fn log_undivided() {
+    static LOGGED: Once = Once::new();
+    LOGGED.call_once(|| {
+        log::warn!(
+            "lines and points that are lit are not divided under `Intensity::Renormalize`, as surfaces are; expected \
+             another policy, or a color in their `LineStyle`"
+        );
+    });
 }
 
 /// The looks of an entity's lines and points.

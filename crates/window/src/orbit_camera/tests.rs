@@ -311,7 +311,7 @@ impl Shared {
         world.despawn(stage.camera);
         world.insert_resource(Pointer { at: None, picture: UVec2::new(900, 720) });
         let viewports = [
-            Viewport::fractions([0.0, 0.0, 0.5, 1.0]),
+            Viewport::fractions([0.0, 0.0, 0.5, 1.0]).with_order(-1),
             Viewport::fractions([0.5, 0.0, 0.5, 0.5]),
             Viewport::pixels([300, 0, 300, 720]).with_order(1),
         ];
