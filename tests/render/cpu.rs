@@ -42,6 +42,8 @@ fn the_cpu_matches_the_oracle() {
     for lights in [0, 20] {
         let row = format!("{lights} more lights");
         failures.draw(&row, &mut stage, &scene(lights), FLOAT);
+        // Few lights do not cut the floor for the first picture.
+        assert_eq!(stage.report().patches > 0, lights > 0, "{row}");
         stage.encode(Encoding::Srgb);
         let picture = stage.bytes();
         // Each layer is rounded to bytes, and lists may leave out half a step.
@@ -52,6 +54,31 @@ fn the_cpu_matches_the_oracle() {
         assert_eq!((report.lights_assigned > 0, report.pipelines), (lights > 0, 0));
     }
     failures.finish();
+}
+
+#[test]
+fn large_meshes_are_cut_when_they_are_drawn_again() {
+    for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
+        let ball = Thing::new(UvSphere::new(1.0, 128, 64)).shaded(shading);
+        let scene = |things: &[Thing]| {
+            let scene = Scene::seen_from(Vec3::new(1.0, 2.0, 3.0), Vec3::ZERO);
+            let scene = scene.lit(Lamp::point(point_light(), Vec3::new(1.0, 3.0, 4.0)));
+            things.iter().cloned().fold(scene, Scene::with)
+        };
+        let mut stage = stage_on("cpu");
+        let first = stage.draw(&scene(&[ball.clone()]));
+        let FrameReport { patches, triangles, .. } = *stage.report();
+        assert_eq!((patches, triangles), (0, 16_128), "{shading:?}: it is whole");
+        let second = stage.float();
+        assert!(stage.report().patches > 200 && stage.report().patches_culled > 80, "{shading:?}");
+        assert_identical(&format!("{shading:?}"), &first, &second);
+        stage.float();
+        assert_eq!(stage.report().bytes_uploaded, 0, "{shading:?}: it is laid out once more");
+        // Two objects of one mesh.
+        let mut stage = stage_on("cpu");
+        stage.draw(&scene(&[ball.clone(), ball.clone().at(Transform::from_xyz(0.5, 0.0, 0.0))]));
+        assert!(stage.report().patches > 400, "{shading:?}");
+    }
 }
 
 #[test]

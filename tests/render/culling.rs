@@ -27,6 +27,8 @@ fn assert_culled(failures: &mut Failures, stage: &mut Stage, row: &str, scene: &
         let mut scene = scene.clone();
         scene.things[0].shading = Some(shading);
         let row = format!("{row}, {shading:?}");
+        // The first picture shows meshes whole.
+        failures.draw_any(&format!("{row}, whole"), stage, &scene, FLOAT);
         let verdict = failures.draw_any(&row, stage, &scene, FLOAT);
         let FrameReport { patches, patches_culled, triangles, triangles_in, .. } = *stage.report();
         let share = patches_culled as f32 / patches as f32;

@@ -5,6 +5,7 @@ use crate::render::scene::{Lamp, Scene, Thing, directional_light, material, othe
 use crate::render::stage::Stage;
 use bevy_math::URect;
 use futures_lite::future::block_on;
+use halfway::lighting::CameraTurn;
 use halfway::prelude::*;
 use halfway::render::{Gpu, GpuTimer, Load, Pixels, RenderError, TextureTarget, encode_frame, wgpu};
 #[cfg(target_os = "linux")]
@@ -338,6 +339,48 @@ fn a_viewport_holds_the_frame_and_leaves_the_rest() {
             assert_eq!(drawn, expected, "{at}, {load:?}, a depth of its own: {own_depth}");
         }
     }
+}
+
+#[test]
+fn cameras_draw_into_a_texture_in_turn() {
+    let gpu = plain_device();
+    let eyes = [Vec3::new(0.0, 3.0, 6.0), Vec3::new(4.0, 2.0, -3.0)];
+    let place = |eye: Vec3| Transform::from_translation(eye).looking_at(Vec3::ZERO, Vec3::Y);
+    let mut half = Stage::new(SIZE.x / 2, SIZE.y);
+    half.world().insert_resource(gpu.clone());
+    let alone = eyes.map(|eye| half.draw_bytes(&Scene { eye: place(eye), ..scene(2) }));
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    stage.world().insert_resource(gpu.clone());
+    let scene = Scene { eye: place(eyes[0]), ..scene(2) };
+    stage.set(&scene);
+    let world = stage.world();
+    let first = world.query_filtered::<Entity, With<Camera>>().single(world).expect("a camera");
+    let second = stage.spawn((scene.camera, place(eyes[1])));
+    let (color, target) = texture(&gpu, wgpu::TextureFormat::Rgba8Unorm);
+    let parts = [URect::new(0, 0, 12, 16), URect::new(12, 0, 24, 16)];
+    for (camera, part, load) in [(first, parts[0], Load::Clear), (second, parts[1], Load::Keep)] {
+        stage.world().insert_resource(CameraTurn(Some(camera)));
+        stage.world().insert_resource(TextureTarget { viewport: Some(part), load, ..target.clone() });
+        assert_eq!(stage.frame().errors, []);
+        let mut encoder = encoder(&gpu);
+        encode_frame(stage.app.world(), &mut encoder).expect("a frame");
+        gpu.queue.submit([encoder.finish()]);
+    }
+    let bytes = read(&gpu, &color, encoder(&gpu));
+    for (at, drawn) in bytes.chunks_exact(4).enumerate() {
+        let [x, y] = [at as u32 % SIZE.x, at as u32 / SIZE.x];
+        let expected = alone[x as usize / 12].get_pixel(x % 12, y).0;
+        assert_eq!(drawn, expected, "({x}, {y})");
+    }
+    // Without a turn, and with parts of their own, they are refused, and the remedy is said.
+    stage.world().insert_resource(CameraTurn(None));
+    assert_eq!(stage.frame().errors, [RenderError::ManyCameras(2)]);
+    for camera in [first, second] {
+        stage.world().entity_mut(camera).insert(Viewport::default());
+    }
+    let errors = stage.frame().errors.clone();
+    let says = |error: &RenderError| error.to_string().contains("draw in turn, by `CameraTurn`");
+    assert!(!errors.is_empty() && errors.iter().all(says), "{errors:?}");
 }
 
 #[test]

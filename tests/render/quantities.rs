@@ -1,14 +1,17 @@
 //! The surface that each pixel shows, and pictures of its properties, against the oracle's and closed forms.
 
-use crate::render::compare::Failures;
-use crate::render::scene::{Map, Scene, Thing, glowing, rotated, scaled};
+use crate::render::compare::{FLOAT, Failures};
+use crate::render::conformance::colors::colored;
+use crate::render::conformance::solids::solid;
+use crate::render::scene::{Map, Scene, Thing, glowing, other_material, rotated, scaled};
 use crate::render::sides::hemisphere;
 use crate::render::stage::Stage;
 use bevy_math::{DVec2, DVec3};
 use halfway::lighting::Choices;
 use halfway::prelude::*;
-use halfway::reference::{Nearest, Oracle};
-use halfway::render::{Quantity, QuantityValues, SurfacePoint, Surfaces, pick, take_quantities};
+use halfway::reference::metrics::{self, Bars, Verdict};
+use halfway::reference::{Image, Nearest, Oracle, Shows};
+use halfway::render::{Quantity, QuantityImage, QuantityValues, SurfacePoint, Surfaces, pick, take_quantities};
 use halfway::texture::TexelImage;
 use std::collections::HashSet;
 
@@ -196,6 +199,147 @@ fn albedo_and_coverage_are_those_of_the_materials() {
         // Only the pane is in the upper third; where it covers the square it takes a quarter of its colour.
         assert_eq!((at(0, 16, 4), at(1, 16, 4)), (vec![0.0; 3], vec![0.25]));
         assert_eq!((at(0, 16, 9), at(1, 16, 9)), (vec![0.5625, 0.1875, 0.375], vec![1.0]));
+    }
+}
+
+/// The scene with colours and opacities at the vertices of a flat object, of a smooth one and of one with a mask, an image,
+/// a solid, an unlit object, and a bowl of another material within.
+fn painted(camera: Camera) -> Scene {
+    let mut scene = scene(camera);
+    let [unlit, fine, flat, mirrored, bowl, grate, pane] = &mut scene.things[..] else { panic!("seven things") };
+    unlit.shading = Some(Shading::Unlit);
+    let stripes = TexelImage::from_fn(16, 4, |x, y| [0.2 + 0.05 * x as f32, 0.9 - 0.2 * y as f32, 0.5, 1.0]);
+    unlit.maps = vec![(MapKind::Color, Map { amount: 0.8, ..Map::new(stripes.expect("an image")) })];
+    fine.mesh = colored(fine.mesh.clone());
+    fine.shading = Some(Shading::Gouraud);
+    *flat = Thing { mask: Some(0.35), mesh: colored(flat.mesh.clone()), ..flat.clone() }.shaded(Shading::Flat);
+    mirrored.solid = Some(solid(SolidKind::Marble));
+    bowl.back = Some(other_material());
+    // The camera looks into it.
+    bowl.frames[0].rotation = Quat::from_rotation_x(-1.2);
+    grate.material = other_material();
+    pane.mesh = colored(pane.mesh.clone());
+    // Beyond the others it lies before the background.
+    pane.frames[0].scale = Vec3::splat(2.5);
+    scene
+}
+
+/// A picture of the newest frame's albedo or coverage.
+fn averaged(stage: &mut Stage, quantity: Quantity) -> Image {
+    let [QuantityImage { values: QuantityValues::Floats(values), size, .. }] =
+        &take_quantities(stage.world(), &[quantity]).unwrap_or_else(|error| panic!("{quantity:?}: {error}"))[..]
+    else {
+        panic!("{quantity:?}: not one picture of numbers")
+    };
+    let channels = quantity.channels().len();
+    let pixel = |values: &[f32]| std::array::from_fn(|channel| f64::from(values[channel % channels]));
+    Image::new(size.x, size.y, values.chunks(channels).map(pixel).collect())
+}
+
+/// The two as the oracle shows them.
+const AVERAGES: [(Quantity, Shows); 2] = [(Quantity::Albedo, Shows::Albedo), (Quantity::Coverage, Shows::Coverage)];
+
+fn judged(stage: &mut Stage, shows: Shows, actual: &Image, bars: Bars) -> Verdict {
+    let oracle = stage.oracle().showing(shows);
+    metrics::judge_on_grid(&oracle, &oracle.draw(), stage.grid_bits(), actual, bars).expect("pictures of one size")
+}
+
+/// Draws the scene; on adapters that do not blend floats without what blends.
+fn set(stage: &mut Stage, mut scene: Scene) {
+    stage.frame();
+    let blends = stage.blends_floats();
+    scene.things.retain(|thing| blends || !thing.blend);
+    stage.set(&scene);
+    stage.frame();
+    assert_eq!(stage.report().errors, []);
+}
+
+#[test]
+fn albedo_and_coverage_are_those_that_the_oracle_draws() {
+    let cameras = [
+        ("perspective", Camera::default()),
+        ("orthographic", Camera::orthographic(3.4)),
+        ("four samples", Camera { samples: Samples::Four, ..Camera::default() }),
+        ("toned", Camera { intensity: Intensity::Reinhard { white: 2.0 }, ..Camera::default() }),
+    ];
+    let mut failures = Failures::default();
+    for (name, camera) in cameras {
+        let mut stage = Stage::new(SIZE.x, SIZE.y);
+        let mut scene = Scene { view_shading: Some(Shading::Flat), ..painted(camera) };
+        if camera.samples == Samples::Four {
+            // Beside the edge of a triangle that is seen edge-on its colours are extrapolated.
+            scene.things[0].maps.clear();
+            scene.things[1].colors = Some(VertexColors::Ignore);
+        }
+        set(&mut stage, scene);
+        for (quantity, shows) in AVERAGES {
+            let drawn = averaged(&mut stage, quantity);
+            let verdict = judged(&mut stage, shows, &drawn, FLOAT);
+            failures.unless(verdict.is_within(), || format!("{name}, {quantity:?}: {verdict}"));
+            failures.unless(verdict.counted > 0.2, || format!("{name}, {quantity:?}: only {verdict} counts"));
+        }
+    }
+    failures.finish();
+}
+
+#[test]
+fn faults_in_albedo_and_coverage_are_found() {
+    fn darker(thing: &mut Thing) {
+        let LinearRgba { red, green, blue, .. } = thing.material.diffuse;
+        thing.material.diffuse = LinearRgba::rgb(0.99 * red, 0.99 * green, 0.99 * blue);
+    }
+    type Plant = fn(&mut [Thing]);
+    let of_albedo: [(&str, Plant); 6] = [
+        ("an unlit object", |things| darker(&mut things[0])),
+        ("an object with a solid", |things| darker(&mut things[3])),
+        ("an object with a mask", |things| darker(&mut things[5])),
+        ("the back's material", |things| things[4].back = None),
+        ("colours that are ignored", |things| things[1].colors = Some(VertexColors::Ignore)),
+        ("colours between the corners of a flat object", |things| things[2].shading = Some(Shading::Phong)),
+    ];
+    let of_coverage: [(&str, Plant); 4] = [
+        ("another opacity", |things| things[6].material.opacity *= 1.01),
+        ("no mask", |things| things[5].mask = None),
+        ("another mask of colours", |things| things[2].mask = Some(0.45)),
+        ("opacities between the corners of a flat object", |things| things[2].shading = Some(Shading::Phong)),
+    ];
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    stage.frame();
+    let blends = stage.blends_floats();
+    let rows = of_albedo.map(|row| (AVERAGES[0], row)).into_iter().chain(of_coverage.map(|row| (AVERAGES[1], row)));
+    for ((quantity, shows), (fault, plant)) in rows {
+        if fault == "another opacity" && !blends {
+            continue;
+        }
+        let mut wrong = painted(Camera::default());
+        plant(&mut wrong.things);
+        set(&mut stage, wrong);
+        let wrong = averaged(&mut stage, quantity);
+        set(&mut stage, painted(Camera::default()));
+        let verdict = judged(&mut stage, shows, &wrong, FLOAT.until_wrong());
+        assert!(!verdict.is_within(), "{quantity:?}, {fault}: {verdict}");
+    }
+}
+
+/// Samples that are taken in several frames.
+#[test]
+fn albedo_and_coverage_are_means_of_sixteen_samples() {
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    set(&mut stage, painted(Camera { samples: Samples::Sixteen, ..Camera::default() }));
+    for (quantity, shows) in AVERAGES {
+        let drawn = averaged(&mut stage, quantity);
+        let oracle = stage.oracle().showing(shows);
+        let differing = |side| {
+            let expected = oracle.clone().with_supersampling(side).draw();
+            let differ = |(a, b): &(&[f64; 3], &[f64; 3])| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.02);
+            drawn.pixels().iter().zip(expected.pixels()).filter(differ).count()
+        };
+        let [right, fewer] = [4, 2].map(differing);
+        // The grid decides some samples along edges; a planted fault: four samples.
+        assert!(
+            right < 60 && fewer > 5 * right.max(20),
+            "{quantity:?}: {right} pixels differ, of four samples {fewer}"
+        );
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::render::scene::{Lamp, Scene, Thing, glowing, material};
 use crate::render::stage::Stage;
 use halfway::asset::Assets;
-use halfway::lighting::{LineStyle, Width};
+use halfway::lighting::{HiddenEdges, LineStyle, Width};
 use halfway::mesh::{Lines, Lines3d};
 use halfway::prelude::*;
 use halfway::record::{FrameToDraw, ReferenceDrawing};
@@ -161,6 +161,34 @@ fn normals_reflect_the_lights_as_a_surface_does() {
 }
 
 #[test]
+fn a_policy_of_intensities_tones_what_is_lit_as_it_tones_surfaces() {
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    let tile = Thing::square(Vec3::new(0.0, 0.0, -5.0), Vec3::Z, 9.0).with_material(material());
+    let white = Intensity::WHITE;
+    let mut found = Vec::new();
+    for intensity in [Intensity::Clamp, Intensity::Reinhard { white }, Intensity::Aces] {
+        let sun = Lamp::directional(DirectionalLight::white(), Vec3::new(-0.2, -0.3, -1.0));
+        let camera = Camera { intensity, ..plan().camera };
+        stage.set(&Scene { camera, ..plan() }.lit(sun).ambient(1.5).with(tile.clone()));
+        let without = drawn(&mut stage);
+        let at = Vec3::new(0.05, 0.05, -5.0);
+        let cloud = Lines::cloud(vec![at]).and_then(|cloud| cloud.with_normals(vec![Vec3::Z])).expect("a point");
+        stroke(&mut stage, cloud, (material(), LineStyle { point_size: Width::Pixels(5.0), ..LineStyle::default() }));
+        let line = Lines::path(vec![Vec3::new(-3.0, 2.05, -4.0), Vec3::new(3.0, 2.05, -4.0)]).expect("a line");
+        stroke(&mut stage, line, red());
+        let with = drawn(&mut stage);
+        let [surface, disc] = [&without, &with].map(|picture| picture.get_pixel(50, 49).0);
+        let same = surface.iter().zip(disc).all(|(a, b)| (a - b).abs() < 1e-4);
+        assert!(same && surface[0] > 0.3, "{intensity:?}: {disc:?} instead of {surface:?}");
+        // A colour of its own stays.
+        assert_eq!(with.get_pixel(50, 29).0, [1.0, 0.0, 0.0, 1.0], "{intensity:?}");
+        found.push(disc[0]);
+    }
+    // A planted fault: the curve of another policy.
+    assert!((found[0] - found[1]).abs() > 0.01 && (found[1] - found[2]).abs() > 0.01, "{found:?}");
+}
+
+#[test]
 fn surfaces_before_them_hide_them_and_those_they_lie_on_do_not() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     // Leaning far back, from the left to the right.
@@ -198,10 +226,45 @@ fn surfaces_before_them_hide_them_and_those_they_lie_on_do_not() {
 }
 
 #[test]
+fn hidden_lines_are_left_out_or_dashed_along_their_whole_path() {
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    // It hides the columns from 50 on.
+    let before = Thing::square(Vec3::new(4.0, 0.0, -2.0), Vec3::Z, 8.0).with_material(glowing(0.0, 0.5, 0.0));
+    stage.set(&plan().with(before));
+    let from_to = |ends: [f32; 2], pieces: u32| {
+        let at = |i: u32| ends[0] + (ends[1] - ends[0]) * i as f32 / pieces as f32;
+        Lines::path((0..=pieces).map(|i| Vec3::new(at(i), 0.05, -4.0)).collect()).expect("a path")
+    };
+    let mut row = |path: Lines, hidden| {
+        let style = LineStyle { line_width: Width::Pixels(1.0), hidden, ..LineStyle::default() };
+        let line = stroke(&mut stage, path, (red(), style));
+        let picture = drawn(&mut stage);
+        stage.world().despawn(line);
+        (10..90).map(|x| picture.get_pixel(x, 49).0[0]).collect::<Vec<_>>()
+    };
+    // From column 10 to column 90.
+    let whole = row(from_to([-4.0, 4.0], 1), HiddenEdges::Omit);
+    assert!(whole[..39].iter().all(|&red| red == 1.0) && whole[41..].iter().all(|&red| red == 0.0), "{whole:?}");
+    let dashed = row(from_to([-4.0, 4.0], 1), HiddenEdges::Dash);
+    for (column, &red) in dashed.iter().enumerate().skip(41) {
+        // The middle of the pixel is this far along the path: 5 pixels of line, 4 of nothing.
+        let is_dash = (column as f32 + 0.5) % 9.0 < 5.0;
+        assert_eq!(red, f32::from(is_dash), "column {column}");
+    }
+    assert_eq!(dashed[..39], whole[..39]);
+    // Segments of 2 pixels have the same dashes; a planted fault would be segments that begin anew.
+    let pieces = row(from_to([-4.0, 4.0], 40), HiddenEdges::Dash);
+    let differing = dashed.iter().zip(&pieces).filter(|(a, b)| (*a - *b).abs() > 0.01).count();
+    assert!(differing <= 2, "{differing} columns differ: {pieces:?}");
+    let is_gap = |red: &&f32| **red == 0.0;
+    assert!(pieces[41..].iter().filter(is_gap).count() > 12, "{pieces:?}");
+}
+
+#[test]
 fn the_nearer_of_two_covers_the_other_whatever_their_order() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     stage.set(&plan());
-    let style = LineStyle { point_size: Width::Pixels(12.0), line_width: Width::Pixels(5.0), color: None };
+    let style = LineStyle { point_size: Width::Pixels(12.0), line_width: Width::Pixels(5.0), ..LineStyle::default() };
     let point = Lines::cloud(vec![Vec3::new(0.0, 0.0, -4.0)]).expect("a point");
     stroke(&mut stage, point, (red(), style));
     // From before the point to behind it.

@@ -184,6 +184,36 @@ fn the_reference_draws_the_same_parts() {
 }
 
 #[test]
+fn the_reference_has_the_quantities_of_all_parts() {
+    let mut stage = Stage::new(SIZE.x, SIZE.y);
+    stage.set(&scene());
+    let cameras = share(&mut stage, &sharers());
+    take(&mut stage, Pixels::Byte);
+    let all = [Quantity::Albedo, Quantity::Coverage, Quantity::Depth];
+    let drawn = take_quantities(stage.world(), &all).expect("quantities");
+    let of_reference =
+        |stage: &mut Stage| ReferenceDrawing::default().take_quantities(stage.world(), SIZE, &all).expect("quantities");
+    let differing = |expected: &[halfway::render::QuantityImage]| -> Vec<usize> {
+        let pairs = drawn.iter().zip(expected).map(|(a, b)| {
+            assert_eq!((a.quantity, a.size), (b.quantity, b.size));
+            let (QuantityValues::Floats(a), QuantityValues::Floats(b)) = (&a.values, &b.values) else {
+                panic!("numbers")
+            };
+            a.iter().zip(b).filter(|(a, b)| (*a - *b).abs() > 1e-3).count()
+        });
+        pairs.collect()
+    };
+    // Edges differ: by the grid, and in the part of four samples by where these lie.
+    let right = differing(&of_reference(&mut stage));
+    assert!(right[0] < 600 && right[1] < 200 && right[2] < 40, "{right:?} values differ");
+    // A planted fault: a camera that looks from elsewhere.
+    stage.world().entity_mut(cameras[1]).insert(sharers()[0].place);
+    take(&mut stage, Pixels::Byte);
+    let wrong = differing(&of_reference(&mut stage));
+    assert!(wrong.iter().zip(right).all(|(wrong, right)| *wrong > 200 + right), "{wrong:?} values differ");
+}
+
+#[test]
 fn a_camera_that_keeps_draws_over_what_is_there() {
     let front = Thing::square(Vec3::new(0.0, 0.0, 1.0), Vec3::Z, 0.5).with_material(glowing(0.9, 0.3, 0.1));
     let mut scene = scene().with(front);

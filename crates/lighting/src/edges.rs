@@ -2,6 +2,7 @@
 
 use crate::LinearRgba;
 use crate::choices::{Choice, Choices};
+use crate::hidden::HiddenEdges;
 use crate::invalid::{Fields, InvalidValue};
 use crate::line_style::Width;
 use crate::range::Range;
@@ -55,16 +56,6 @@ pub enum WhichEdges {
     Boundary,
     /// Edges between a triangle that faces the camera and one that does not, and borders: the outline.
     Silhouette,
-}
-
-/// The drawing of what lies behind surfaces.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum HiddenEdges {
-    /// It is left out.
-    #[default]
-    Omit,
-    /// It is dashed: 5 pixels of line, 4 pixels of nothing.
-    Dash,
 }
 
 impl Choices for WhichEdges {

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::LinearRgba;
+use crate::hidden::HiddenEdges;
 use crate::invalid::{Fields, InvalidValue};
 use crate::range::Range;
 
@@ -75,10 +76,12 @@ impl FromStr for Width {
 /// Their colour is the one given here, else that of the vertices times the diffuse reflectance of the entity's
 /// [`Material`](crate::Material). Where the vertices have normals, and no colour is given here, the material reflects the
 /// lights of the scene there, from the side that is seen; environments do not count. Opacities count where the entity has
-/// [`AlphaMode::Blend`](crate::AlphaMode). No intensity policy changes them.
+/// [`AlphaMode::Blend`](crate::AlphaMode). Lit ones have the curve of the camera's [`Intensity`](crate::Intensity), as the
+/// surfaces behind them have it, but are not divided under `Renormalize`; no policy changes others.
 ///
 /// Lines and points are drawn over the finished picture, smooth whatever the camera's samples are, and hidden by the
-/// surfaces before them. Pictures that are taken have them (`take_picture`, `render_picture`, files); windows do not.
+/// surfaces before them; hidden parts of lines may be dashed. Pictures that are taken have them (`take_picture`,
+/// `render_picture`, files); windows do not.
 ///
 /// ```
 /// use bevy_color::LinearRgba;
@@ -96,11 +99,15 @@ pub struct LineStyle {
     pub point_size: Width,
     /// The colour, linear RGB, each channel 0 to 10¹²; alpha is ignored. Default: their own.
     pub color: Option<LinearRgba>,
+    /// The parts of lines that lie behind surfaces; hidden points are left out. Dashes go on from one segment
+    /// of a path to the next. Default: left out.
+    pub hidden: HiddenEdges,
 }
 
 impl LineStyle {
     /// The value of [`LineStyle::default`], for constants.
-    pub const DEFAULT: Self = Self { line_width: Width::Pixels(1.5), point_size: Width::Pixels(4.0), color: None };
+    pub const DEFAULT: Self =
+        Self { line_width: Width::Pixels(1.5), point_size: Width::Pixels(4.0), color: None, hidden: HiddenEdges::Omit };
 
     /// Checks every field.
     ///

@@ -2,7 +2,6 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::numbering::Numbering;
 use crate::{Mesh, MeshError, NormalReport, NormalWeighting, Normals};
 
 impl Mesh {
@@ -26,7 +25,7 @@ impl Mesh {
     /// # Errors
     /// A height that is not finite, or a position moved beyond the range of `f32`; the error names the first.
     pub fn displaced(&self, height: impl Fn(usize) -> f32) -> Result<(Self, NormalReport), MeshError> {
-        let groups = Numbering::from_positions(self.positions());
+        let groups = self.points();
         let mut sums = vec![(DVec3::ZERO, 0.0, 0.0); groups.count()];
         for (vertex, &group) in groups.numbers.iter().enumerate() {
             let height = height(vertex);

@@ -2,14 +2,16 @@
 
 use rayon::prelude::*;
 
+use crate::buckets::Buckets;
+
 /// The edges between numbered points, and the triangles along them.
 ///
 /// A pass is 3·triangle + corner: that triangle runs along the edge from that corner to the next. A side between a
 /// point and itself is not an edge.
 pub(crate) struct Edges {
     triangles: Vec<[u32; 3]>,
-    /// All passes, sorted by the lower end, then the higher end, then their own number.
-    passes: Vec<u32>,
+    /// All passes in buckets by the lower end, sorted by the higher end, then their own number.
+    passes: Buckets,
 }
 
 /// An edge, and the passes along it.
@@ -32,16 +34,18 @@ impl Edges {
     }
 
     /// The edges whose lower end is among these points.
-    pub(crate) fn at_points(triangles: Vec<[u32; 3]>, is_among: impl Fn(u32) -> bool) -> Self {
-        let mut edges = Self { triangles, passes: Vec::new() };
-        let is_edge = |pass: &u32| {
-            let [lower, higher] = edges.ends(*pass);
-            lower != higher && is_among(lower)
+    pub(crate) fn at_points(triangles: Vec<[u32; 3]>, is_among: impl Fn(u32) -> bool + Copy) -> Self {
+        let points = triangles.as_flattened().iter().max().map_or(0, |&most| most as usize + 1);
+        let lower_ends = |&[a, b, c]: &[u32; 3]| {
+            [[a, b], [b, c], [c, a]].map(|[from, to]| Some(from.min(to)).filter(|&lower| from != to && is_among(lower)))
         };
-        let mut passes: Vec<u32> = (0..3 * edges.triangles.len() as u32).filter(is_edge).collect();
-        passes.par_sort_unstable_by_key(|&pass| (edges.ends(pass), pass));
-        edges.passes = passes;
-        edges
+        let mut passes = Buckets::new(points, triangles.iter().flat_map(lower_ends));
+        passes.sort_each(|pass| {
+            let triangle = triangles[pass as usize / 3];
+            let (from, to) = (triangle[pass as usize % 3], triangle[next_corner(pass) as usize % 3]);
+            from.max(to)
+        });
+        Self { triangles, passes }
     }
 
     /// The triangles by the numbers of their points.
@@ -77,9 +81,17 @@ impl Edges {
 
     /// All edges, in the order of their ends.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Edge<'_>> {
-        self.passes
-            .chunk_by(|&a, &b| self.ends(a) == self.ends(b))
-            .map(|passes| Edge { ends: self.ends(passes[0]), passes })
+        self.edges_of(self.passes.things())
+    }
+
+    /// The same in parts, which threads share.
+    pub(crate) fn par_parts(&self) -> impl ParallelIterator<Item = impl Iterator<Item = Edge<'_>>> {
+        self.passes.parts().into_par_iter().map(|passes| self.edges_of(&self.passes.things()[passes]))
+    }
+
+    fn edges_of<'a>(&'a self, passes: &'a [u32]) -> impl Iterator<Item = Edge<'a>> {
+        let edges = passes.chunk_by(|&a, &b| self.ends(a) == self.ends(b));
+        edges.map(|passes| Edge { ends: self.ends(passes[0]), passes })
     }
 
     /// The two passes of an edge between two triangles of the same winding, which run along it in opposite directions.

@@ -6,6 +6,7 @@
 //! - `formats`: reading and writing of model files: [`load`], [`write`](write()), [`Model`] and its parts.
 
 mod bounds;
+mod buckets;
 mod classes;
 #[cfg(feature = "ecs")]
 mod component;

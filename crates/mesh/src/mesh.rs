@@ -49,15 +49,36 @@ struct MeshData {
     indices: Arc<Vec<u32>>,
     bounds: Bounds,
     surface: Option<Surface>,
-    /// Whether nobody gave the normals, and the default weighting made them.
-    has_default_normals: DefaultNormals,
+    notes: Notes,
 }
 
-/// A flag in which equal meshes may differ.
-#[derive(Clone, Copy, Debug, Default)]
-struct DefaultNormals(bool);
+/// Knowledge of a mesh in which equal ones may differ.
+#[derive(Clone, Copy, Debug)]
+struct Notes {
+    normals: NormalOrigin,
+    /// Whether no two vertices are known to share a position, so that they need no numbering.
+    are_apart: bool,
+}
 
-impl PartialEq for DefaultNormals {
+/// Who made the normals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum NormalOrigin {
+    /// A file, a formula or a policy.
+    Given,
+    /// Nobody gave any, and the default weighting made them, before positions or triangles changed.
+    Default,
+    /// The default weighting, for these positions and triangles, with this report.
+    DefaultOfThese(NormalReport),
+}
+
+impl NormalOrigin {
+    /// The origin after positions or triangles have changed.
+    fn of_others(self) -> Self {
+        if self == Self::Given { Self::Given } else { Self::Default }
+    }
+}
+
+impl PartialEq for Notes {
     fn eq(&self, _: &Self) -> bool {
         true
     }
@@ -161,6 +182,7 @@ impl MeshData {
             self.bounds = bounds;
         }
         self.positions = Arc::new(positions);
+        self.notes = Notes { normals: self.notes.normals.of_others(), are_apart: false };
         self.surface = None;
     }
 }
@@ -213,13 +235,15 @@ impl Mesh {
         }
         check_indices(&indices, positions.len())?;
 
-        let are_given = normals.is_some();
-        let (normals, report) = match normals {
-            Some(given) => kept_normals(given, &positions, &indices),
-            None => vertex_normals(&positions, &indices, NormalWeighting::default()),
-        };
-        let mesh = Self::checked(positions, normals, uvs, indices);
-        Ok((if are_given { mesh } else { mesh.with_normals_as_default() }, report))
+        if let Some(given) = normals {
+            let (normals, report) = kept_normals(given, &positions, &indices);
+            return Ok((Self::checked(positions, normals, uvs, indices), report));
+        }
+        let points = Numbering::from_positions(&positions);
+        let (normals, report) = vertex_normals(&positions, &points, &indices, NormalWeighting::default());
+        let notes = Notes { normals: NormalOrigin::DefaultOfThese(report), are_apart: points.are_distinct() };
+        let mesh = Self::checked(positions, normals, uvs, indices).changed(|data| data.notes = notes);
+        Ok((mesh, report))
     }
 
     /// A mesh from data that is known to be valid.
@@ -236,7 +260,7 @@ impl Mesh {
             indices: Arc::new(indices),
             bounds,
             surface: None,
-            has_default_normals: DefaultNormals(false),
+            notes: Notes { normals: NormalOrigin::Given, are_apart: false },
         };
         Self { data: Arc::new(data) }
     }
@@ -293,7 +317,7 @@ impl Mesh {
         let data = Arc::make_mut(&mut self.data);
         data.normals = Arc::new(normals);
         data.tangents = None;
-        data.has_default_normals = DefaultNormals(false);
+        data.notes.normals = NormalOrigin::Given;
         Ok(())
     }
 
@@ -358,7 +382,7 @@ impl Mesh {
         mesh.changed(|data| {
             data.second_uvs = self.uv_set(1).map(|all| Arc::new(extend(all, pairs.clone(), Vec2::midpoint)));
             data.colors = self.colors().map(|all| Arc::new(extend(all, pairs, Vec4::midpoint)));
-            data.has_default_normals = self.data.has_default_normals;
+            data.notes.normals = self.data.notes.normals.of_others();
         })
     }
 
@@ -367,19 +391,35 @@ impl Mesh {
         self.changed(|data| {
             data.normals = Arc::new(normals);
             data.tangents = None;
-            data.has_default_normals = DefaultNormals(false);
+            data.notes.normals = NormalOrigin::Given;
+        })
+    }
+
+    /// The mesh with the normals that it has as given ones, and without tangents.
+    pub(crate) fn with_normals_as_given(self) -> Self {
+        self.changed(|data| {
+            data.tangents = None;
+            data.notes.normals = NormalOrigin::Given;
         })
     }
 
     /// The mesh with its normals marked as those of the default weighting, which nobody gave.
     pub(crate) fn with_normals_as_default(self) -> Self {
-        self.changed(|data| data.has_default_normals = DefaultNormals(true))
+        self.changed(|data| data.notes.normals = NormalOrigin::Default)
     }
 
     /// Whether its normals were given, by a file, a formula or a policy; else the default weighting made them for want
     /// of others, and [`Normals::Auto`](crate::Normals::Auto) replaces them.
     pub fn has_given_normals(&self) -> bool {
-        !self.data.has_default_normals.0
+        self.data.notes.normals == NormalOrigin::Given
+    }
+
+    /// The report of the default weighting, if its normals are known to be those of its positions and triangles.
+    pub(crate) fn report_of_default_normals(&self) -> Option<NormalReport> {
+        match self.data.notes.normals {
+            NormalOrigin::DefaultOfThese(report) => Some(report),
+            NormalOrigin::Given | NormalOrigin::Default => None,
+        }
     }
 
     /// Replaces the positions by valid ones, as many as before.
@@ -418,13 +458,22 @@ impl Mesh {
             data.colors = self.colors().map(|all| Arc::new(pick(all, vertices)));
             data.tangents = self.tangents().map(|all| Arc::new(pick(all, vertices)));
             data.surface = self.surface().cloned();
-            data.has_default_normals = self.data.has_default_normals;
+            data.notes.normals = self.data.notes.normals.of_others();
         })
+    }
+
+    /// The numbers of the positions.
+    pub(crate) fn points(&self) -> Numbering {
+        if self.data.notes.are_apart {
+            Numbering::of_distinct(self.positions().len())
+        } else {
+            Numbering::from_positions(self.positions())
+        }
     }
 
     /// The numbers of the positions, and the edges between them.
     pub(crate) fn position_edges(&self) -> (Numbering, Edges) {
-        let groups = Numbering::from_positions(self.positions());
+        let groups = self.points();
         let edges = Edges::new(groups.triangles(self.indices()));
         (groups, edges)
     }
@@ -563,7 +612,8 @@ fn kept_normals(mut given: Vec<Vec3>, positions: &[Vec3], indices: &[u32]) -> (V
     if without.is_empty() {
         return (given, NormalReport::default());
     }
-    let (computed, _) = vertex_normals(positions, indices, NormalWeighting::default());
+    let points = Numbering::from_positions(positions);
+    let (computed, _) = vertex_normals(positions, &points, indices, NormalWeighting::default());
     for &vertex in &without {
         given[vertex] = computed[vertex];
     }

@@ -4,6 +4,9 @@ use std::hash::BuildHasher;
 
 use glam::Vec3;
 use hashbrown::{DefaultHashBuilder, HashTable};
+use rayon::prelude::*;
+
+use crate::buckets::Buckets;
 
 /// The numbers of a list: equal elements have the same number, counted from 0 in the order of first occurrence.
 pub(crate) struct Numbering {
@@ -32,7 +35,55 @@ impl Numbering {
 
     /// Numbers positions; −0 and 0 are equal.
     pub(crate) fn from_positions(positions: &[Vec3]) -> Self {
-        Self::new(positions.len(), |vertex| position_key(positions[vertex]))
+        // Most are distinct. Equal ones are sought among few that have a part of the hash in common, so that the table
+        // stays in the cache, and on all threads.
+        let hasher = DefaultHashBuilder::default();
+        let bits = (positions.len() / BUCKET).checked_ilog2().unwrap_or(0);
+        let hash = |p: &Vec3| hasher.hash_one(position_key(*p));
+        let bucket = |p: &Vec3| (hash(p) >> 32) as u32 & ((1 << bits) - 1);
+        let of_each: Vec<u32> = if bits == 0 {
+            vec![0; positions.len()]
+        } else {
+            positions.par_iter().with_min_len(BUCKET).map(bucket).collect()
+        };
+        let mut buckets = Buckets::new(1 << bits, of_each.iter().map(|&bucket| Some(bucket)));
+        let places = buckets.things().to_vec();
+        buckets.par_each(HashTable::new, |table: &mut HashTable<u32>, vertices| {
+            let hash = |vertex: &u32| hash(&positions[*vertex as usize]);
+            table.clear();
+            table.reserve(vertices.len(), hash);
+            for vertex in vertices {
+                let position = positions[*vertex as usize];
+                let is_equal = |other: &u32| positions[*other as usize] == position;
+                *vertex = *table.entry(hash(vertex), is_equal, hash).or_insert(*vertex).get();
+            }
+        });
+        let mut numbers = of_each;
+        for (&vertex, &first) in places.iter().zip(buckets.things()) {
+            numbers[vertex as usize] = first;
+        }
+        let mut firsts = Vec::new();
+        for vertex in 0..numbers.len() {
+            let first = numbers[vertex] as usize;
+            numbers[vertex] = if first == vertex {
+                firsts.push(vertex as u32);
+                firsts.len() as u32 - 1
+            } else {
+                numbers[first]
+            };
+        }
+        Self { numbers, firsts }
+    }
+
+    /// Numbers things that are all distinct.
+    pub(crate) fn of_distinct(count: usize) -> Self {
+        let numbers: Vec<u32> = (0..count as u32).collect();
+        Self { firsts: numbers.clone(), numbers }
+    }
+
+    /// Whether all are distinct.
+    pub(crate) fn are_distinct(&self) -> bool {
+        self.firsts.len() == self.numbers.len()
     }
 
     /// How many numbers there are.
@@ -45,6 +96,9 @@ impl Numbering {
         indices.as_chunks::<3>().0.iter().map(|triangle| triangle.map(|i| self.numbers[i as usize])).collect()
     }
 }
+
+/// So many positions are numbered together.
+const BUCKET: usize = 1 << 11;
 
 /// Distinct keys that arrive one by one, numbered from 0 in the order of first occurrence: the corners of a file of any
 /// length, of which only the distinct ones are stored.

@@ -3,9 +3,11 @@
 use std::fmt;
 
 use crate::Mesh;
+use crate::buckets::Buckets;
 use crate::edges::{Edge, Edges};
 use crate::normals::{NormalWeighting, vertex_normals};
 use crate::numbering::Numbering;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The problems that [`Mesh::report`] found; none of them keeps the mesh from being drawn.
 ///
@@ -77,7 +79,8 @@ impl fmt::Display for Problems {
 impl Mesh {
     /// The problems, from the positions' numbers and the edges between them.
     pub(crate) fn problems(&self, groups: &Numbering, edges: &Edges) -> Problems {
-        let (_, report) = vertex_normals(self.positions(), self.indices(), NormalWeighting::default());
+        let weigh = || vertex_normals(self.positions(), groups, self.indices(), NormalWeighting::default()).1;
+        let report = self.report_of_default_normals().unwrap_or_else(weigh);
         let mut used = vec![false; self.positions().len()];
         for &i in self.indices() {
             used[i as usize] = true;
@@ -86,7 +89,11 @@ impl Mesh {
         Problems {
             degenerate_triangles: report.degenerate_triangles,
             duplicate_triangles: duplicate_triangles(edges.triangles()),
-            duplicate_vertices: self.positions().len() - self.identical_vertices(&groups.numbers).count(),
+            duplicate_vertices: if groups.are_distinct() {
+                0
+            } else {
+                self.positions().len() - self.identical_vertices(&groups.numbers).count()
+            },
             unused_vertices: used.iter().filter(|&&used| !used).count(),
             cancelled_normals: report.cancelled,
             open_edges: count(|_, edge| edge.passes.len() == 1),
@@ -98,10 +105,21 @@ impl Mesh {
 
 /// How many triangles have the points of an earlier one.
 fn duplicate_triangles(triangles: &[[u32; 3]]) -> usize {
-    let distinct = Numbering::new(triangles.len(), |triangle| {
-        let mut sorted = triangles[triangle];
+    let sorted = |triangle: u32| {
+        let mut sorted = triangles[triangle as usize];
         sorted.sort_unstable();
         sorted
+    };
+    let points = triangles.as_flattened().iter().max().map_or(0, |&most| most as usize + 1);
+    let lowest = |&[a, b, c]: &[u32; 3]| Some(a.min(b).min(c));
+    let mut buckets = Buckets::new(points, triangles.iter().map(lowest));
+    let count = AtomicUsize::new(0);
+    buckets.par_each(Vec::new, |seen, own| {
+        seen.clear();
+        seen.extend(own.iter().map(|&triangle| sorted(triangle)));
+        seen.sort_unstable();
+        seen.dedup();
+        count.fetch_add(own.len() - seen.len(), Ordering::Relaxed);
     });
-    triangles.len() - distinct.count()
+    count.into_inner()
 }

@@ -24,7 +24,7 @@ pub(crate) fn reference_picture(
     let images = if quantities.is_empty() {
         Vec::new()
     } else {
-        drawing.quantities(app, size, quantities).map_err(Failure::work)?
+        drawing.take_quantities(app.world_mut(), size, quantities).map_err(Failure::work)?
     };
     Ok((picture, images))
 }

@@ -1,5 +1,7 @@
 """Golden pictures, and the plugin for pytest."""
 
+from importlib.metadata import entry_points
+
 import numpy as np
 import pytest
 
@@ -125,8 +127,11 @@ MODULE = """
 def run(pytester):
     """Runs pytest with the plugin, which an installed package brings by itself."""
 
+    is_installed = any(point.name == "halfway" for point in entry_points(group="pytest11"))
+    plugin = [] if is_installed else ["-p", "halfway.pytest_plugin"]
+
     def run(*arguments):
-        return pytester.runpytest_subprocess("-p", "halfway.pytest_plugin", "-p", "no:cacheprovider", *arguments)
+        return pytester.runpytest_subprocess(*plugin, "-p", "no:cacheprovider", *arguments)
 
     return run
 

@@ -1,6 +1,6 @@
 #![doc = include_str!("../README.md")]
 
-mod oracle_surfaces;
+mod oracle_quantities;
 pub mod output;
 mod recording;
 mod reference;

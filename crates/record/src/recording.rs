@@ -6,17 +6,14 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use bevy_app::{App, AppExit, Plugin, PluginsState};
-use bevy_ecs::prelude::World;
 use bevy_math::UVec2;
 use bevy_time::TimeUpdateStrategy;
-use halfway_lighting::{Camera, CameraTurn, Choices, Encoding, Intensity, SharedPart};
+use halfway_lighting::{Camera, Encoding, Intensity};
 use halfway_reference::OracleError;
-use halfway_render::{
-    Headless, Picture, Pixels, Quantity, QuantityImage, RenderError, Surfaces, render_picture, take_quantities,
-};
+use halfway_render::{Headless, Picture, Pixels, Quantity, RenderError, render_picture, take_quantities};
 use thiserror::Error;
 
-use crate::oracle_surfaces::{OracleFrame, sharing, surfaces};
+use crate::oracle_quantities::{self, OracleFrame};
 use crate::output::{
     AnimationWriter, ContactSheet, FrameDelay, OutputError, PictureFormat, check_quantity_file, encode_picture,
     write_picture, write_quantities,
@@ -158,39 +155,12 @@ impl Recording {
         let files = self.also.iter().map(|(_, file)| numbered(file, frame));
         let world = app.world_mut();
         let images = match world.remove_resource::<OracleFrame>() {
-            Some(OracleFrame(size)) => of_oracle(world, size, &quantities)?,
+            Some(frame) => oracle_quantities::quantities(world, frame, &quantities)?,
             None => take_quantities(world, &quantities)?,
         };
         let images: Vec<_> = images.into_iter().zip(files).collect();
         Ok(write_quantities(&images)?)
     }
-}
-
-/// Quantities of the surfaces that the oracle sees.
-pub(crate) fn of_oracle(
-    world: &mut World,
-    size: UVec2,
-    quantities: &[Quantity],
-) -> Result<Vec<QuantityImage>, RecordError> {
-    let averaged = [Quantity::Albedo, Quantity::Coverage];
-    if let Some(quantity) = quantities.iter().find(|quantity| averaged.contains(quantity)) {
-        return Err(RecordError::NotOfReference(*quantity));
-    }
-    let of_surfaces = |surfaces: &Surfaces| {
-        quantities.iter().map(|&quantity| QuantityImage::of_surfaces(quantity, surfaces)).collect::<Vec<_>>()
-    };
-    let parts = sharing(world, size);
-    if parts.is_empty() {
-        return Ok(of_surfaces(&surfaces(world, size)?));
-    }
-    let mut whole: Vec<_> = quantities.iter().map(|&quantity| QuantityImage::empty(quantity, size)).collect();
-    for SharedPart { camera, corner, size, .. } in parts {
-        world.insert_resource(CameraTurn(Some(camera)));
-        let surfaces = surfaces(world, size.into());
-        world.insert_resource(CameraTurn(None));
-        whole.iter_mut().zip(of_surfaces(&surfaces?)).for_each(|(whole, part)| whole.put(corner.into(), &part));
-    }
-    Ok(whole)
 }
 
 /// A file's name, with the frame's number in place of a `{}`.
@@ -286,9 +256,6 @@ pub enum RecordError {
     /// Several frames are to be written into one file of a quantity.
     #[error("{}: is to hold a quantity of several frames; expected a name with {{}}, which becomes the frame's number", .0.display())]
     OneFileForAll(PathBuf),
-    /// The reference renderer does not average a quantity.
-    #[error("{}: is an average over the samples of a frame, which the reference renderer does not take; leave it out, or draw with an adapter", .0.choice().map_or("it", |choice| choice.key))]
-    NotOfReference(Quantity),
     /// There is no frame in the range.
     #[error("frames {}..{}: the range is empty; expected A..B with A below B", .0.start, .0.end)]
     NoFrames(Range<u32>),

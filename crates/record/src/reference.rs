@@ -4,19 +4,18 @@ use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use bevy_app::App;
-use bevy_color::LinearRgba;
 use bevy_ecs::prelude::{Entity, Resource, World};
 use bevy_math::UVec2;
-use halfway_lighting::{Camera, CameraTurn, Encoding, Intensity, Legend, Load, Samples, SharedPart, current_camera};
-use halfway_reference::{Mode, Oracle, OracleError};
+use halfway_lighting::{Camera, CameraTurn, Encoding, Legend, Load, SharedPart, current_camera};
+use halfway_reference::{Mode, Oracle, OracleError, Shows};
 use halfway_render::{
     Picture, Pixels, Quantity, QuantityImage, RenderError, draw_background, draw_kept, draw_legend, draw_lines,
     has_lines,
 };
 use image::DynamicImage;
 
-use crate::oracle_surfaces::{OracleFrame, sharing, surfaces};
-use crate::recording::{FrameToDraw, RecordError, of_oracle};
+use crate::oracle_quantities::{self, OracleFrame, sharing, side, surfaces};
+use crate::recording::{FrameToDraw, RecordError};
 
 /// Draws frames with the reference renderer: in f64 on the CPU, without a graphics adapter.
 ///
@@ -61,7 +60,7 @@ impl ReferenceDrawing {
     ) -> Result<Picture, RecordError> {
         app.update();
         let parts = sharing(app.world_mut(), frame.size);
-        app.insert_resource(OracleFrame(frame.size));
+        app.insert_resource(self.frame(frame.size));
         if parts.is_empty() {
             let mut picture = self.of_camera(app, frame, None, progress)?;
             add_legend(app.world_mut(), &mut picture);
@@ -82,17 +81,22 @@ impl ReferenceDrawing {
         Ok(whole)
     }
 
-    /// Pictures of quantities of the frame that was drawn last, of `size` pixels.
+    /// Quantities of the world as it is, in the order in which they are asked for, for a picture of this size. Those of
+    /// surfaces are of the meshes, whatever [`mode`](Self::mode) is; averages are those of the picture.
     ///
     /// # Errors
-    /// [`RecordError::Oracle`], and [`RecordError::NotOfReference`] for a quantity that the reference renderer has not.
-    pub fn quantities(
+    /// [`OracleError`] for a scene that cannot be drawn.
+    pub fn take_quantities(
         &self,
-        app: &mut App,
+        world: &mut World,
         size: UVec2,
         quantities: &[Quantity],
-    ) -> Result<Vec<QuantityImage>, RecordError> {
-        of_oracle(app.world_mut(), size, quantities)
+    ) -> Result<Vec<QuantityImage>, OracleError> {
+        oracle_quantities::quantities(world, self.frame(size), quantities)
+    }
+
+    fn frame(&self, size: UVec2) -> OracleFrame {
+        OracleFrame { size, mode: self.mode, supersampling: self.supersampling }
     }
 
     /// The picture of the camera to draw, over what is `kept` of other cameras.
@@ -105,12 +109,7 @@ impl ReferenceDrawing {
     ) -> Result<Picture, RecordError> {
         let entity = current_camera(app.world_mut()).map_err(|_| RenderError::NoCamera)?;
         let camera = *app.world().get::<Camera>(entity).ok_or(RenderError::NoCamera)?;
-        let supersampling = self.supersampling.unwrap_or(match camera.samples {
-            Samples::One => 1,
-            Samples::Four => 2,
-            Samples::Sixteen => 4,
-            Samples::SixtyFour => 8,
-        });
+        let supersampling = self.supersampling.unwrap_or_else(|| side(camera.samples));
         let oracle = Oracle::new(app.world_mut(), frame.size)?
             .with_mode(self.mode)
             .with_supersampling(supersampling)
@@ -127,8 +126,9 @@ impl ReferenceDrawing {
             Pixels::Float => Picture::Float(image.to_float()),
         };
         let world = app.world_mut();
-        if kept.is_some() || !camera.background_is_plain() {
-            let shares = background_shares(world, (entity, camera), frame.size, supersampling)?;
+        if !oracle.has_sky() && (kept.is_some() || !camera.background_is_plain()) {
+            let coverage = oracle.showing(Shows::Coverage).draw();
+            let shares: Vec<f32> = coverage.pixels().iter().map(|&[coverage, ..]| (1.0 - coverage) as f32).collect();
             match kept {
                 Some(kept) => draw_kept(&mut picture, &shares, &camera, kept),
                 None => draw_background(&mut picture, &shares, &camera),
@@ -149,22 +149,4 @@ fn add_legend(world: &mut World, picture: &mut Picture) {
     if let Some(legend) = world.get_resource::<Legend>() {
         draw_legend(picture, legend, encoding);
     }
-}
-
-/// How much of the background is seen in each pixel: what a white one adds to a black one.
-fn background_shares(
-    world: &mut World,
-    (entity, camera): (Entity, Camera),
-    size: UVec2,
-    supersampling: u32,
-) -> Result<Vec<f32>, OracleError> {
-    let mut drawn = |background| {
-        world.entity_mut(entity).insert(Camera { background, intensity: Intensity::Clamp, ..camera });
-        Ok(Oracle::new(world, size)?.with_supersampling(supersampling).with_clamping(true).draw().to_float())
-    };
-    let pictures = [LinearRgba::BLACK, LinearRgba::WHITE].map(&mut drawn);
-    world.entity_mut(entity).insert(camera);
-    let [black, white] = pictures;
-    let pixels = black?.into_raw().into_iter().zip(white?.into_raw());
-    Ok(pixels.step_by(4).map(|(black, white)| white - black).collect())
 }

@@ -10,4 +10,4 @@ mod surface;
 
 pub use image::Image;
 pub use interpolation::{Interpolation, PolygonCorner};
-pub use oracle::{ColorRange, Mode, Nearest, Oracle, OracleError, Possible, Probe, Stopped};
+pub use oracle::{ColorRange, Mode, Nearest, Oracle, OracleError, Possible, Probe, Shows, Stopped};

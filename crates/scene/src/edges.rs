@@ -91,7 +91,7 @@ impl Object for Feature {
 }
 
 words! {
-    /// `hidden`: the parts of edges that lie behind surfaces.
+    /// `hidden`: the parts of edges and lines that lie behind surfaces.
     HiddenEdges {
         /// They are left out.
         omit = Self::Omit,

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use bevy_color::{ColorToComponents as _, LinearRgba};
-use halfway_lighting::{LineStyle, Range, Show, Width};
+use halfway_lighting::{HiddenEdges, LineStyle, Range, Show, Width};
 use serde::de::{Deserializer, Error, SeqAccess, Unexpected, Visitor};
 use serde::ser::Serializer;
 use serde_json::{Map, Value, json};
@@ -23,6 +23,8 @@ keys! {
         point_size: Width = LineStyle::DEFAULT.point_size => Limits::Numbers(Range::POSITIVE),
         /// The color of all of them, linear RGB, unlit. 0 to 1e12. null: the model's own.
         color: Option<[f32; 3]> = None => Limits::Numbers(Range::CHANNEL),
+        /// The parts of lines that lie behind surfaces.
+        hidden: HiddenEdges = LineStyle::DEFAULT.hidden,
     }
 }
 
@@ -33,14 +35,14 @@ impl Object for LineStyleEntry {
 impl LineStyleEntry {
     /// As a component.
     pub(crate) fn component(&self) -> LineStyle {
-        let Self { line_width, point_size, color } = *self;
-        LineStyle { line_width, point_size, color: color.map(LinearRgba::from_f32_array_no_alpha) }
+        let Self { line_width, point_size, color, hidden } = *self;
+        LineStyle { line_width, point_size, color: color.map(LinearRgba::from_f32_array_no_alpha), hidden }
     }
 }
 
 impl From<LineStyle> for LineStyleEntry {
-    fn from(LineStyle { line_width, point_size, color }: LineStyle) -> Self {
-        Self { line_width, point_size, color: color.map(LinearRgba::to_f32_array_no_alpha) }
+    fn from(LineStyle { line_width, point_size, color, hidden }: LineStyle) -> Self {
+        Self { line_width, point_size, color: color.map(LinearRgba::to_f32_array_no_alpha), hidden }
     }
 }
 

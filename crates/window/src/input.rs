@@ -1,6 +1,7 @@
 //! winit's events as `bevy_input`'s messages.
 
 use crate::keys;
+use crate::orbit_camera::Pointer;
 use bevy_ecs::prelude::*;
 use bevy_input::keyboard::{Key, KeyboardFocusLost, KeyboardInput};
 use bevy_input::mouse::{MouseButton, MouseButtonInput, MouseMotion, MouseScrollUnit, MouseWheel};
@@ -37,12 +38,16 @@ impl Forward {
             }
             WindowEvent::CursorMoved { position, .. } => {
                 let position = DVec2::new(position.x, position.y);
+                world.get_resource_or_init::<Pointer>().at = Some(position.as_vec2());
                 if let Some(before) = self.pointer.replace(position) {
                     let delta = ((position - before) / scale).as_vec2();
                     world.write_message(MouseMotion { delta });
                 }
             }
-            WindowEvent::CursorLeft { .. } => self.pointer = None,
+            WindowEvent::CursorLeft { .. } => {
+                self.pointer = None;
+                world.get_resource_or_init::<Pointer>().at = None;
+            }
             WindowEvent::MouseWheel { delta, phase, .. } => {
                 world.write_message(self.wheel(*delta, *phase));
             }
@@ -148,15 +153,19 @@ mod tests {
         }
         assert_eq!(motion(&mut app), Vec2::new(10.0, 5.0));
         assert_eq!(motion(&mut app), Vec2::ZERO, "the next frame");
+        // The place is in the picture's own pixels.
+        assert_eq!(app.world().resource::<Pointer>().at, Some(Vec2::new(120.0, 60.0)));
     }
 
     #[test]
     fn the_pointer_that_comes_back_elsewhere_has_not_moved() {
         let (mut app, mut forward) = stage();
         let left = WindowEvent::CursorLeft { device_id: DeviceId::dummy() };
-        for event in [moved(5.0, 5.0), left, moved(600.0, 400.0)] {
+        for event in [moved(5.0, 5.0), left] {
             forward.event(&event, 1.0, app.world_mut());
         }
+        assert_eq!(app.world().resource::<Pointer>().at, None);
+        forward.event(&moved(600.0, 400.0), 1.0, app.world_mut());
         assert_eq!(motion(&mut app), Vec2::ZERO);
     }
 

@@ -18,7 +18,7 @@ mod viewer_keys;
 pub use display::has_display;
 pub use open::WinitWindow;
 pub use orbit::{Orbit, PITCH_LIMIT};
-pub use orbit_camera::{DragArea, OrbitCamera, OrbitCameraPlugin};
+pub use orbit_camera::{DragArea, OrbitCamera, OrbitCameraPlugin, Pointer};
 pub use plugin::WindowPlugin;
 pub use title::{FrameTime, WindowTitle};
 pub use viewer_keys::ViewerKeysPlugin;

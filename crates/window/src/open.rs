@@ -3,7 +3,7 @@
 use crate::buffer::WindowBuffer;
 use crate::error::{WindowError, reason};
 use crate::input::Forward;
-use crate::orbit_camera::DragArea;
+use crate::orbit_camera::{DragArea, Pointer};
 use bevy_ecs::prelude::*;
 use bevy_math::{UVec2, Vec2};
 use halfway_render::{Adapter, AdapterChoice, Canvas, CanvasTarget, Gpu, SurfaceLost, SurfaceTarget, wgpu};
@@ -67,7 +67,7 @@ impl Open {
         shortest_frame(refresh)
     }
 
-    /// Gives the picture and the [`DragArea`] the window's size.
+    /// Gives the picture, the [`DragArea`] and the [`Pointer`] the window's size.
     pub(crate) fn follow_size(&mut self, world: &mut World) {
         let size = physical_size(&self.window);
         self.size = size;
@@ -80,6 +80,7 @@ impl Open {
         if size.min_element() > 0 {
             let logical = self.window.inner_size().to_logical::<f32>(self.window.scale_factor());
             world.insert_resource(DragArea(Vec2::new(logical.width, logical.height)));
+            world.get_resource_or_init::<Pointer>().picture = size;
         }
     }
 

@@ -8,10 +8,10 @@ use bevy_ecs::system::SystemParam;
 use bevy_input::keyboard::{KeyCode, KeyboardFocusLost, KeyboardInput};
 use bevy_input::mouse::{AccumulatedMouseMotion, AccumulatedMouseScroll, MouseButton, MouseScrollPixelsPerLine};
 use bevy_input::{ButtonInput, InputPlugin, InputSystems};
-use bevy_math::{Vec2, Vec3};
+use bevy_math::{UVec2, Vec2, Vec3};
 use bevy_time::{Real, Time, TimePlugin, TimeSystems};
 use bevy_transform::components::Transform;
-use halfway_lighting::{Camera, Projection};
+use halfway_lighting::{Camera, Projection, SharedPart, SharingCameras};
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// A camera that mouse and keys move around a target; needs [`OrbitCameraPlugin`].
@@ -84,11 +84,13 @@ impl OrbitCamera {
     }
 }
 
-/// Moves every [`OrbitCamera`] by `bevy_input`'s mouse and keys, in `PreUpdate`.
+/// Moves [`OrbitCamera`]s by `bevy_input`'s mouse and keys, in `PreUpdate`: of cameras that share the picture by a
+/// [`Viewport`](halfway_lighting::Viewport), the one under the [`Pointer`], which keeps it until the last button is
+/// released; else every one.
 ///
 /// | input | effect |
 /// |---|---|
-/// | left drag | turns: half a turn over the height of the [`DragArea`] |
+/// | left drag | turns: half a turn over the height of the [`DragArea`], or of its part of it |
 /// | right, middle or Shift + left drag | pans: objects at the target follow the pointer |
 /// | wheel | zooms, a tenth nearer or farther a line; an orthographic picture shows a tenth less or more |
 /// | arrow keys | turn, 90° a second |
@@ -111,7 +113,9 @@ impl Plugin for OrbitCameraPlugin {
         if !app.is_plugin_added::<TimePlugin>() {
             app.add_plugins(TimePlugin);
         }
-        app.init_resource::<DragArea>().add_systems(PreUpdate, drive.after(InputSystems).after(TimeSystems));
+        app.init_resource::<DragArea>()
+            .init_resource::<Pointer>()
+            .add_systems(PreUpdate, drive.after(InputSystems).after(TimeSystems));
     }
 
     fn is_unique(&self) -> bool {
@@ -127,6 +131,47 @@ pub struct DragArea(pub Vec2);
 impl Default for DragArea {
     fn default() -> Self {
         Self(Vec2::new(1280.0, 720.0))
+    }
+}
+
+/// The place of the pointer on the picture, by which one of several cameras that share the picture is moved. A window keeps
+/// it; without one it is nowhere, and the first camera is moved.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pointer {
+    /// In pixels of the picture, from its upper left corner. Default `None`: beside the picture.
+    pub at: Option<Vec2>,
+    /// Width and height of the picture in pixels. Default 0 × 0.
+    pub picture: UVec2,
+}
+
+impl Pointer {
+    /// Whether it is on this part of the picture.
+    fn is_on(&self, part: &SharedPart) -> bool {
+        let [corner, size] = [part.corner, part.size].map(|pixels| UVec2::from(pixels).as_vec2());
+        self.at.is_some_and(|at| at.cmpge(corner).all() && at.cmplt(corner + size).all())
+    }
+}
+
+/// Which of the cameras that share the picture is moved.
+#[derive(Default)]
+struct Held {
+    camera: Option<Entity>,
+    /// Whether a button is down, so that the camera keeps it.
+    is_dragged: bool,
+}
+
+impl Held {
+    /// The part of the camera to move, in the frame in which a button is down or not; `None` where no cameras share the
+    /// picture.
+    fn part(&mut self, is_dragged: bool, pointer: &Pointer, sharing: &SharingCameras) -> Option<SharedPart> {
+        let parts = sharing.parts(pointer.picture.max(UVec2::ONE).to_array());
+        let was_dragged = std::mem::replace(&mut self.is_dragged, is_dragged);
+        // Later cameras lie over earlier ones.
+        let under = parts.iter().rev().find(|part| !was_dragged && pointer.is_on(part));
+        let kept = || parts.iter().find(|part| Some(part.camera) == self.camera).or(parts.first());
+        let part = under.or_else(kept).copied();
+        self.camera = part.map(|part| part.camera);
+        part
     }
 }
 
@@ -166,9 +211,10 @@ const WHEEL_ZOOM: f32 = 0.1;
 const LONGEST_FRAME: f32 = 0.1;
 
 impl Input<'_, '_> {
-    fn camera_input(&mut self, seconds: f32, area: Vec2) -> CameraInput {
+    /// The input for a picture of this height, in the unit of the mouse's motion.
+    fn camera_input(&mut self, seconds: f32, height: f32) -> CameraInput {
         let reset = self.read_keys();
-        let mut camera_input = self.drag(area.y.max(1.0));
+        let mut camera_input = self.drag(height.max(1.0));
         camera_input.reset = reset;
         let seconds = seconds.min(LONGEST_FRAME);
         if !modified(&self.keys) {
@@ -180,6 +226,10 @@ impl Input<'_, '_> {
         camera_input.zoom += self.held.iter().map(|&(_, zoom)| zoom).sum::<f32>() * KEY_ZOOM * seconds;
         camera_input.zoom -= self.scroll.to_lines(&self.pixels_per_line).delta.y * WHEEL_ZOOM;
         camera_input
+    }
+
+    fn is_dragged(&self) -> bool {
+        self.buttons.get_pressed().next().is_some()
     }
 
     fn drag(&self, height: f32) -> CameraInput {
@@ -229,12 +279,18 @@ pub(crate) fn modified(keys: &ButtonInput<KeyCode>) -> bool {
 
 fn drive(
     mut input: Input,
-    area: Res<DragArea>,
+    (area, pointer): (Res<DragArea>, Res<Pointer>),
     time: Res<Time<Real>>,
-    mut cameras: Query<(&mut OrbitCamera, &mut Transform, Option<&mut Camera>)>,
+    sharing: SharingCameras,
+    mut held: Local<Held>,
+    mut cameras: Query<(Entity, &mut OrbitCamera, &mut Transform, Option<&mut Camera>)>,
 ) {
-    let camera_input = input.camera_input(time.delta_secs(), area.0);
-    for (mut orbit, mut transform, camera) in &mut cameras {
+    let part = held.part(input.is_dragged(), &pointer, &sharing);
+    let share = part.map_or(1.0, |part| part.size[1] as f32 / pointer.picture.y.max(1) as f32);
+    let all_input = input.camera_input(time.delta_secs(), area.0.y * share);
+    for (entity, mut orbit, mut transform, camera) in &mut cameras {
+        let is_moved = part.is_none_or(|part| part.camera == entity);
+        let camera_input = if is_moved { all_input } else { CameraInput::default() };
         if transform.is_changed() && orbit.shown == Some(orbit.orbit) {
             let orbit = orbit.bypass_change_detection();
             orbit.orbit = Orbit::from_transform(&transform, orbit.orbit.distance);

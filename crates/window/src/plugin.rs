@@ -11,7 +11,7 @@ use bevy_ecs::schedule::ScheduleLabel;
 use bevy_input::{InputPlugin, InputSystems};
 use bevy_math::{UVec2, Vec3};
 use bevy_transform::components::Transform;
-use halfway_lighting::{Camera, Viewport};
+use halfway_lighting::Camera;
 use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 
 /// Runs the App in a window: one `App::update` a frame, at the display's rate.
@@ -43,7 +43,8 @@ pub struct WindowPlugin {
     /// which is inserted for it), frames a second, shading and errors. Default true.
     pub status: bool,
     /// Whether mouse and keys move the camera. Adds [`OrbitCameraPlugin`], and gives an [`OrbitCamera`] to every new
-    /// [`Camera`] without one and without a parent; it turns about the point of the view axis nearest the origin, or,
+    /// [`Camera`] without one and without a parent; of cameras that share the window, the one under the pointer moves. It
+    /// turns about the point of the view axis nearest the origin, or,
     /// if that is not in front of the camera, about the point as far ahead as the origin is away. Default true.
     pub orbit: bool,
     /// Whether keys change the shading and close the window. Adds [`ViewerKeysPlugin`]. Default true.
@@ -83,19 +84,12 @@ impl Plugin for WindowPlugin {
     }
 }
 
-type NewCameras<'w, 's> = Query<
-    'w,
-    's,
-    (Entity, &'static Transform, Option<&'static Viewport>),
-    (Added<Camera>, Without<OrbitCamera>, Without<ChildOf>),
->;
+type NewCameras<'w, 's> =
+    Query<'w, 's, (Entity, &'static Transform), (Added<Camera>, Without<OrbitCamera>, Without<ChildOf>)>;
 
-/// Gives a camera without an orbit one that does not change its picture; of cameras that share the window, the first.
+/// Gives a camera without an orbit one that does not change its picture.
 fn give_orbits(cameras: NewCameras, mut commands: Commands) {
-    let sharing = cameras.iter().filter_map(|(entity, _, viewport)| Some((viewport?.order, entity)));
-    let first = sharing.min().map(|(_, entity)| entity);
-    let turned = cameras.iter().filter(|(entity, _, viewport)| viewport.is_none() || first == Some(*entity));
-    for (entity, transform, _) in turned {
+    for (entity, transform) in &cameras {
         commands.entity(entity).insert(OrbitCamera::resume(transform, distance_to_turn_at(transform)));
     }
 }
@@ -119,6 +113,7 @@ fn announce(window: Query<&WinitWindow>, surface: Option<Res<SurfaceTarget>>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use halfway_lighting::Viewport;
 
     #[test]
     fn cameras_orbit_the_point_that_they_face() {
@@ -139,16 +134,16 @@ mod tests {
     }
 
     #[test]
-    fn the_first_of_the_cameras_that_share_a_window_gets_an_orbit() {
+    fn each_of_the_cameras_that_share_a_window_gets_an_orbit() {
         let mut app = App::new();
         app.add_plugins(WindowPlugin::default());
         app.finish();
-        let camera =
-            |order| (Camera::default(), Transform::from_xyz(0.0, 0.0, 5.0), Viewport::default().with_order(order));
-        let cameras = [2, 1, 3].map(|order| app.world_mut().spawn(camera(order)).id());
+        let place = Transform::from_xyz(0.0, 0.0, 5.0);
+        let viewports = [2, 1, 3].map(|order| Viewport::default().with_order(order));
+        let cameras = viewports.map(|viewport| app.world_mut().spawn((Camera::default(), place, viewport)).id());
         app.update();
         let orbits = cameras.map(|camera| app.world().get::<OrbitCamera>(camera).is_some());
-        assert_eq!(orbits, [false, true, false]);
+        assert_eq!(orbits, [true; 3]);
     }
 
     #[test]

@@ -5,16 +5,24 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::time::Duration;
 
+use bevy_ecs::system::SystemState;
+use halfway::lighting::{CameraTurn, SharedPart, SharingCameras};
 use halfway::prelude::*;
 use halfway::reference::metrics::{Bars, Verdict, judge_on_grid};
 use halfway::reference::{Image, Oracle};
-use halfway::render::{Adapter, RenderError};
+use halfway::render::{Adapter, PendingPicture, RenderError, Surfaces, draw_lines, has_lines};
 use halfway::scene::{MeshEntry, SceneFile, spawn};
+use image::{Rgba, Rgba32FImage};
 use serde_json::Value;
 
 use crate::shrink::shrink;
 
 /// Draws scenes with one adapter and judges the pictures by the oracle, as `halfway verify` does.
+///
+/// Of cameras that share a picture each part is judged, unless another one covers it. Lines and points are no part of the
+/// pictures that are judged: they are drawn by one code for all renderers, over the surfaces that each has found. It draws
+/// them on grey over those of the adapter and over those of the oracle, and what is far from where these differ must be
+/// equal.
 ///
 /// Everywhere, in floating point, a value may be off by 2 · 10⁻³ of the range, as by [`Bars::FLOAT`]. Its bar for 99.9
 /// % of the values does not hold for all scenes: the judge takes a slope of more than 4 % of the range within 1/16 of a
@@ -43,6 +51,8 @@ pub enum Finding {
     Float(Box<Verdict>),
     /// The picture of bytes differs from the oracle's.
     Bytes(Box<Verdict>),
+    /// Lines or points differ far from all surfaces that do.
+    Lines(String),
     /// The scene was read, and then not drawn.
     Refused(String),
     /// The format does not allow the scene.
@@ -74,6 +84,7 @@ impl fmt::Display for Finding {
         match self {
             Self::Float(verdict) => write!(f, "float: {verdict}"),
             Self::Bytes(verdict) => write!(f, "8 bits: {verdict}"),
+            Self::Lines(reason) => write!(f, "lines: {reason}"),
             Self::Refused(reason) => write!(f, "not drawn: {reason}"),
             Self::NoScene(reason) => write!(f, "no scene: {reason}"),
             Self::Panicked(reason) => write!(f, "panicked: {reason}"),
@@ -126,6 +137,7 @@ impl Judge {
         let mut scene = scene.map_err(|error| Finding::NoScene(error.to_string()))?;
         if !self.four {
             scene.samples = 1;
+            scene.all_cameras_mut().for_each(|camera| camera.samples = None);
         }
         catch_unwind(AssertUnwindSafe(|| self.judge_unguarded(&scene))).unwrap_or_else(|panic| {
             let text = panic.downcast_ref::<String>().map(String::as_str);
@@ -222,20 +234,111 @@ impl Pictures {
         } else if !bytes.is_within() {
             Err(Finding::Bytes(Box::new(bytes)))
         } else {
+            self.judge_lines()?;
             Ok(Figures { float, bytes, left_out: self.renderer.world().resource::<FrameReport>().left_out })
         }
     }
 
+    /// The verdict of the picture, or of the worst of its parts.
     fn judged(&mut self, pixels: Pixels, bars: Bars, grid: u32) -> Result<Verdict, Finding> {
         self.renderer.insert_resource(Headless { size: self.size, pixels });
-        let actual = match render_picture(&mut self.renderer).map_err(refused::<RenderError>)? {
-            Picture::Byte(image) => Image::from_bytes(&image, self.encoding),
-            Picture::Float(image) => Image::from_float(&image),
+        self.renderer.update();
+        let world = self.renderer.world_mut();
+        if let Some(error) = world.resource::<FrameReport>().errors.first() {
+            return Err(refused(error));
+        }
+        // Without lines, which are drawn over it.
+        let picture = PendingPicture::request(world).and_then(PendingPicture::wait).map_err(refused)?;
+        let parts = sharing(self.oracle.world_mut(), self.size);
+        if parts.is_empty() {
+            return self.judged_part(&picture, self.size, bars, grid);
+        }
+        let mut worst = None;
+        for (number, part) in parts.iter().enumerate() {
+            if parts[number + 1..].iter().any(|later| overlap(part, later)) {
+                continue;
+            }
+            let &SharedPart { camera, corner, size, .. } = part;
+            let (corner, size) = (UVec2::from(corner), UVec2::from(size));
+            self.oracle.insert_resource(CameraTurn(Some(camera)));
+            let verdict = self.judged_part(&picture.part(corner, size), size, bars, grid);
+            self.oracle.insert_resource(CameraTurn(None));
+            let verdict = verdict?;
+            if !verdict.is_within() {
+                return Ok(verdict);
+            }
+            worst = worst.filter(|worst: &Verdict| worst.worst >= verdict.worst).or(Some(verdict));
+        }
+        worst.ok_or_else(|| refused("cameras cover each other"))
+    }
+
+    fn judged_part(&mut self, picture: &Picture, size: UVec2, bars: Bars, grid: u32) -> Result<Verdict, Finding> {
+        let actual = match picture {
+            Picture::Byte(image) => Image::from_bytes(image, self.encoding),
+            Picture::Float(image) => Image::from_float(image),
         };
-        let oracle = Oracle::new(self.oracle.world_mut(), self.size).map_err(refused)?;
+        let oracle = Oracle::new(self.oracle.world_mut(), size).map_err(refused)?;
         let oracle = oracle.with_clamping(bars.are_clamped());
         judge_on_grid(&oracle, &oracle.draw(), grid, &actual, bars).map_err(refused)
     }
+
+    /// Compares the lines and points of a scene of one camera.
+    fn judge_lines(&mut self) -> Result<(), Finding> {
+        let size = self.size;
+        if !has_lines(self.renderer.world()) || !sharing(self.oracle.world_mut(), size).is_empty() {
+            return Ok(());
+        }
+        let of_renderer = Surfaces::take(self.renderer.world_mut()).map_err(refused)?;
+        let world = self.oracle.world_mut();
+        let oracle = Oracle::new(world, size).map_err(refused)?;
+        let of_oracle = Surfaces::found_by(world, size, |x, y| {
+            let nearest = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest?;
+            Some((nearest.object, nearest.triangle?))
+        });
+        let of_oracle = of_oracle.map_err(refused)?;
+        let drawn = |world: &mut World, surfaces: &Surfaces| {
+            let mut picture = Picture::Float(Rgba32FImage::from_pixel(size.x, size.y, Rgba([GREY, GREY, GREY, 1.0])));
+            draw_lines(world, &mut picture, surfaces).map_err(refused)?;
+            let Picture::Float(picture) = picture else { return Err(refused("a picture of bytes")) };
+            Ok(picture)
+        };
+        let actual = drawn(self.renderer.world_mut(), &of_renderer)?;
+        let expected = drawn(self.oracle.world_mut(), &of_oracle)?;
+        // Entities are others in the other world.
+        let place = |surfaces: &Surfaces, x, y| surfaces.at(x, y).map(|it| (it.object, it.part, it.triangle));
+        let pixels = || (0..size.y).flat_map(|y| (0..size.x).map(move |x| UVec2::new(x, y)));
+        let differing = pixels().filter(|at| place(&of_renderer, at.x, at.y) != place(&of_oracle, at.x, at.y));
+        let differing: Vec<UVec2> = differing.collect();
+        let wrong = pixels().find(|at| {
+            let [a, b] = [&actual, &expected].map(|picture| picture.get_pixel(at.x, at.y).0);
+            let is_equal = a.iter().zip(b).all(|(a, b)| (a - b).abs() <= LINE_ROUNDING * (1.0 + b.abs()));
+            !is_equal && differing.iter().all(|other| other.as_ivec2().distance_squared(at.as_ivec2()) > FAR * FAR)
+        });
+        match wrong {
+            Some(UVec2 { x, y }) => {
+                let [a, b] = [actual, expected].map(|picture| picture.get_pixel(x, y).0);
+                Err(Finding::Lines(format!("({x}, {y}) is {a:?} instead of {b:?}")))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// What lines are drawn on.
+const GREY: f32 = 0.5;
+/// Rounding of the same computation on the same numbers.
+const LINE_ROUNDING: f32 = 1e-5;
+/// As far from a surface, in pixels, what it hides may reach: half of the widest line and its neighbours.
+const FAR: i32 = 24;
+
+fn sharing(world: &mut World, size: UVec2) -> Vec<SharedPart> {
+    let mut cameras = SystemState::<SharingCameras>::new(world);
+    cameras.get(world).map(|cameras| cameras.parts(size.to_array())).unwrap_or_default()
+}
+
+/// Whether two parts of a picture have a pixel in common.
+fn overlap(a: &SharedPart, b: &SharedPart) -> bool {
+    (0..2).all(|axis| a.corner[axis] < b.corner[axis] + b.size[axis] && b.corner[axis] < a.corner[axis] + a.size[axis])
 }
 
 fn refused<E: fmt::Display>(error: E) -> Finding {

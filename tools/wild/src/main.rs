@@ -9,7 +9,7 @@ use clap::builder::NonEmptyStringValueParser;
 use halfway::lighting::Tolerance;
 use halfway::output::write_text;
 use halfway::render::AdapterChoice;
-use halfway_wild::{IMAGES, Judge, scene, written};
+use halfway_wild::{IMAGES, Judge, MODELS, scene, written};
 use serde_json::Value;
 
 /// Draws random scenes with the adapter and judges each by the oracle; reduces failures and prints them.
@@ -72,7 +72,7 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     let choice = AdapterChoice { name: arguments.adapter.clone() };
     let adapter = choice.open().map_err(|error| (3, error.to_string()))?;
     println!("{}, seed {}", adapter.describe(), arguments.seed);
-    write_images(&arguments.output).map_err(|error| (1, error))?;
+    write_files(&arguments.output).map_err(|error| (1, error))?;
     let judge = Judge::new(adapter, &arguments.output).map_err(|error| (3, error.to_string()))?;
     let mut judge = judge.with_four_samples(arguments.four);
     if let Some(steps) = arguments.steps {
@@ -106,9 +106,9 @@ fn run(arguments: &Arguments) -> Result<u64, (u8, String)> {
     Ok(failed)
 }
 
-/// Writes the images that scenes name beside them.
-fn write_images(folder: &Path) -> Result<(), String> {
-    for (path, bytes) in IMAGES {
+/// Writes the images and models that scenes name beside them.
+fn write_files(folder: &Path) -> Result<(), String> {
+    for (path, bytes) in IMAGES.into_iter().chain(MODELS) {
         let path = folder.join(path);
         let write = || {
             std::fs::create_dir_all(path.parent().unwrap_or(folder))?;

@@ -1,4 +1,4 @@
-//! Generates scenes over the whole format of scene files, except models; of images on objects only normal maps.
+//! Generates scenes over the whole format of scene files; of models three small ones, of images on objects only normal maps.
 //!
 //! Most values are ordinary, so that most scenes show something; each may be extreme, and any key may be left out.
 
@@ -7,16 +7,18 @@ mod camera;
 mod environment;
 mod files;
 mod light;
+mod lines;
 mod mesh;
 mod normals;
 mod positions;
+mod scalars;
 
 use fastrand::Rng;
 use serde_json::{Map, Value, json};
 
 use crate::random::{RngExt, for_scene};
 
-pub use files::IMAGES;
+pub use files::{IMAGES, MODELS};
 
 /// Scene number `number` of a seed, as the JSON of a scene file: the same one on every machine.
 pub fn scene(seed: u64, number: u64) -> Value {
@@ -59,7 +61,69 @@ pub fn scene(seed: u64, number: u64) -> Value {
     if random.percent(12) {
         put_into_layers(random, &mut scene);
     }
+    add_lines(random, unit, &mut scene);
+    if !scene.0.contains_key("environment") {
+        show_numbers(random, &mut scene);
+    }
+    if random.percent(15) {
+        share_picture(random, unit, &mut scene);
+    }
     scene.into()
+}
+
+/// Adds a small model, lines along edges, and lines that explain the scene.
+fn add_lines(random: &mut Rng, unit: f64, scene: &mut Object) {
+    let has_model = random.percent(30);
+    if has_model {
+        scene.perhaps(random, 30, "line_style", |random| lines::style(random, unit));
+    }
+    scene.perhaps(random, 8, "edges", |random| lines::edges(random, unit));
+    scene.perhaps(random, 14, "show", lines::show);
+    if let Some(Value::Array(objects)) = scene.0.get_mut("objects") {
+        if has_model {
+            objects.push(lines::model(random, unit));
+        }
+        for object in objects {
+            if random.percent(10) {
+                object["edges"] = lines::edges(random, unit);
+            }
+        }
+    }
+}
+
+/// Shows numbers on some objects. One at the position of another shows the same.
+fn show_numbers(random: &mut Rng, scene: &mut Object) {
+    let Some(Value::Array(objects)) = scene.0.get_mut("objects") else { return };
+    for at in 0..objects.len() {
+        let takes_images = |object: &Value| object.get("maps").is_some() || object.get("solid").is_some();
+        let numbers = if is_twin(objects, at) {
+            objects[at - 1].get("scalars").cloned()
+        } else if random.percent(60) {
+            scalars::scalars(random, &objects[at])
+        } else {
+            None
+        };
+        let next_takes_images = objects.get(at + 1).is_some_and(|next| is_twin(objects, at + 1) && takes_images(next));
+        if let Some(numbers) = numbers.filter(|_| !takes_images(&objects[at]) && !next_takes_images) {
+            objects[at]["scalars"] = numbers;
+        }
+    }
+}
+
+/// Adds cameras, and gives each a part of the picture.
+fn share_picture(random: &mut Rng, unit: f64, scene: &mut Object) {
+    let size = [0, 1].map(|axis| scene.0["size"][axis].as_u64().unwrap_or(1));
+    let mut viewports = camera::viewports(random, size).into_iter();
+    if let Some(viewport) = viewports.next() {
+        scene.0["camera"]["viewport"] = viewport;
+    }
+    let more = viewports.map(|viewport| {
+        let mut camera = camera::camera(random, unit);
+        camera["viewport"] = viewport;
+        camera
+    });
+    let more: Vec<Value> = more.collect();
+    scene.set("cameras", more.into());
 }
 
 /// Puts some objects and lights into layers, and has the camera see some of them.

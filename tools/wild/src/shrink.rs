@@ -85,9 +85,9 @@ impl<F: FnMut(&Value) -> bool> Search<F> {
         }
     }
 
-    /// Removes objects and lights.
+    /// Removes objects, lights and cameras.
     fn shorten_lists(&mut self) {
-        for list in ["objects", "lights"] {
+        for list in ["objects", "lights", "cameras"] {
             let drop = |scene: &mut Value, gone| {
                 if let Some(items) = scene[list].as_array_mut() {
                     items.drain(gone);

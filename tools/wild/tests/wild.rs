@@ -4,8 +4,9 @@ use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
+use halfway::lighting::Width;
 use halfway::render::{Adapter, AdapterChoice};
-use halfway::scene::{LightsEntry, MaterialEntry, SceneFile};
+use halfway::scene::{ColorMap, LightsEntry, MaterialEntry, SceneFile};
 use halfway_wild::{Fault, Finding, Judge, scene, written};
 use serde_json::Value;
 
@@ -199,6 +200,26 @@ fn with_another_environment(scene: &mut SceneFile) {
     }
 }
 
+fn with_wider_lines(scene: &mut SceneFile) {
+    let of_objects = scene.objects.iter_mut().filter_map(|object| object.edges.as_mut());
+    for edges in of_objects.chain(&mut scene.edges) {
+        edges.width = Width::Pixels(edges.width.value() + 1.0);
+    }
+}
+
+fn with_parts_swapped(scene: &mut SceneFile) {
+    let mut cameras: Vec<_> = scene.all_cameras_mut().collect();
+    if let [first, second, ..] = &mut cameras[..] {
+        std::mem::swap(&mut first.viewport, &mut second.viewport);
+    }
+}
+
+fn with_other_maps(scene: &mut SceneFile) {
+    for scalars in scene.objects.iter_mut().filter_map(|object| object.scalars.as_mut()) {
+        scalars.map = if scalars.map == ColorMap::Cividis { ColorMap::Inferno } else { ColorMap::Cividis };
+    }
+}
+
 /// The fault is found within 40 scenes, and the minimised scene has this many objects. The fault is planted into the
 /// scene, so that any renderer shows it; the CPU is used, since it compiles no shaders.
 fn is_found_and_made_small(fault: Fault, objects: RangeInclusive<usize>) {
@@ -241,4 +262,20 @@ fn undone_mirrors_are_found_and_minimised() {
 #[test]
 fn a_turned_environment_is_found_and_minimised() {
     is_found_and_made_small(with_another_environment, 0..=2);
+}
+
+#[test]
+fn wider_lines_are_found_and_minimised() {
+    is_found_and_made_small(with_wider_lines, 0..=2);
+}
+
+/// The background shows a part of another size.
+#[test]
+fn swapped_parts_of_a_picture_are_found_and_minimised() {
+    is_found_and_made_small(with_parts_swapped, 0..=2);
+}
+
+#[test]
+fn other_colors_of_numbers_are_found_and_minimised() {
+    is_found_and_made_small(with_other_maps, 1..=2);
 }

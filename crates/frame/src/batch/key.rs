@@ -236,8 +236,15 @@ impl DrawKey {
         // Light from an environment takes the normal and the exponent as lights would have them.
         let terms = if self.surrounded { self.terms } else { terms };
         // The color of a flat triangle is of one point, whatever light there is.
-        let is_flat = self.is_painted() && self.terms.has(Frequency::Triangle);
-        let terms = if is_flat { Terms { diffuse: Frequency::Triangle, ..terms } } else { terms };
+        let terms = match self.terms {
+            Terms { diffuse: Frequency::Triangle, .. } if self.is_painted() => {
+                Terms { diffuse: Frequency::Triangle, ..terms }
+            }
+            Terms { specular: Frequency::Triangle, .. } if self.is_painted() => {
+                Terms { specular: Frequency::Triangle, ..terms }
+            }
+            _ => terms,
+        };
         let (lit, specular) = (terms != Terms::NONE, terms.specular != Frequency::Never);
         Self {
             terms,

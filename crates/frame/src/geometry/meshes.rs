@@ -2,6 +2,7 @@
 
 use crate::geometry::patches::{MeshTriangles, Patches, Prepared};
 use crate::geometry::workshop::Workshop;
+use crate::lights::slots::COUNTED_LIGHTS;
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::{by_vertex_shader, shown_shading};
 use crate::report::FrameReport;
@@ -12,9 +13,11 @@ use bevy_ecs::prelude::*;
 use bevy_math::{Vec2, Vec4};
 use bevy_platform::collections::HashMap;
 use halfway_asset::{AssetId, Assets};
+use halfway_lighting::lights::LightQueries;
 use halfway_lighting::{AlphaMode, Frequency, Shading, Terms, Tolerance, VertexColors};
 use halfway_mesh::{Mesh, Mesh3d};
 use halfway_texture::{MapKind, Maps, SolidTexture, SurfaceMap, UvSet};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// One mesh, laid out for one way of shading.
@@ -164,28 +167,37 @@ impl Geometries {
         self.meshes.clear();
     }
 
-    /// Lays the mesh out unless it is, and with its levels of detail once they are there. A mesh whose vertices have moved
-    /// keeps its patches, from the second time on.
-    fn ensure(&mut self, (id, form): (AssetId<Mesh>, Form), mesh: &Mesh, levels: Option<&MeshTriangles>) {
+    /// Lays the mesh out unless it is, and with its levels of detail once they are there. A large mesh is cut into patches
+    /// when it is laid out for the second time, in a later frame or for another object, or at once if they `pay`. One
+    /// whose vertices have moved keeps its patches, from the second time on.
+    fn ensure(&mut self, (id, form): (AssetId<Mesh>, Form), mesh: &Mesh, levels: Option<&MeshTriangles>, pay: bool) {
         let there = self.meshes.get(&(id, form));
-        let is_there = there.is_some_and(|there| {
-            there.source.is_clone_of(mesh) && levels.is_none_or(|levels| Arc::ptr_eq(&levels.patches, &there.patches))
+        let same = there.filter(|there| there.source.is_clone_of(mesh));
+        let is_there = same.is_some_and(|there| {
+            levels.map_or(!there.patches.is_uncut(), |levels| Arc::ptr_eq(&levels.patches, &there.patches))
         });
         if is_there {
             return;
         }
         // Tangents split vertices, and nothing else changes.
-        let dressed = form.tangents.filter(|_| mesh.tangents().is_none());
-        let dressed = dressed.and_then(|set| mesh.clone().with_tangents_of(set as usize).ok());
-        let drawn = dressed.unwrap_or_else(|| mesh.clone());
-        let before = there.filter(|there| levels.is_none() && drawn.shares_triangles(&there.drawn));
+        let dressed = || {
+            let set = form.tangents.filter(|_| mesh.tangents().is_none())?;
+            mesh.clone().with_tangents_of(set as usize).ok()
+        };
+        let drawn = same.map(|there| there.drawn.clone()).or_else(dressed).unwrap_or_else(|| mesh.clone());
+        let before = there.filter(|there| {
+            levels.is_none() && !there.source.is_clone_of(mesh) && drawn.shares_triangles(&there.drawn)
+        });
+        let is_one_patch = drawn.triangles_of_a_patch() >= drawn.triangle_count();
+        let is_cut = pay || is_one_patch || same.is_some() || before.is_some();
         let moves = before.is_some();
         let moved = before.and_then(|before| before.moved_to(&drawn));
         let MeshTriangles { corners, patches, pieces } = match (moved, levels) {
             (Some(moved), _) => moved,
             (None, Some(levels)) => levels.clone(),
             (None, None) if form.ordered => MeshTriangles::in_order(&drawn),
-            (None, None) => MeshTriangles::in_patches(&drawn),
+            (None, None) if is_cut => MeshTriangles::in_patches(&drawn),
+            (None, None) => MeshTriangles::uncut(&drawn),
         };
         let opposite_normals = !form.flat && has_opposite_normals(&drawn, &corners);
         let triangles = Some(corners);
@@ -232,14 +244,16 @@ pub(crate) fn lay_out(
     objects: Query<LaidOut>,
     visible: Res<Visible>,
     view: Res<View>,
-    surroundings: Res<Surroundings>,
+    (surroundings, lights): (Res<Surroundings>, LightQueries),
     waits: Res<WaitsForLevels>,
     mut workshop: ResMut<Workshop>,
     mut geometries: ResMut<Geometries>,
     mut report: ResMut<FrameReport>,
 ) {
     workshop.collect();
-    let mut last = None;
+    // Each patch has its own list of them.
+    let has_many_lights = lights.counts().iter().sum::<usize>() > COUNTED_LIGHTS as usize;
+    let (mut last, mut repeats) = (None, 0);
     for (Mesh3d(handle), shading, paint, tolerance) in objects.iter_many(&visible.0).flatten() {
         let Some(mesh) = meshes.get(handle) else { continue };
         let shading = shown_shading(shading, &view);
@@ -248,9 +262,12 @@ pub(crate) fn lay_out(
         let wanted = (handle.id(), Form::new(terms, &paint));
         let pixels = tolerance.unwrap_or(&view.tolerance).pixels;
         let has_levels = pixels > 0.0 && shades_pixels_alone(terms) && wanted.1.may_have_levels();
-        if last.replace((wanted, has_levels)) != Some((wanted, has_levels)) {
+        let is_repeated = last.replace((wanted, has_levels)) == Some((wanted, has_levels));
+        repeats = if is_repeated { repeats + 1 } else { 0 };
+        // The second object of a mesh may have it cut, and more change nothing.
+        if repeats < 2 {
             let levels = if has_levels { workshop.levels(wanted.0, mesh, waits.0) } else { None };
-            geometries.ensure(wanted, mesh, levels);
+            geometries.ensure(wanted, mesh, levels, has_levels || has_many_lights);
         }
     }
     report.levels_pending = workshop.pending();
@@ -280,7 +297,7 @@ pub(crate) fn forget_removed(
 /// `n_i·n_j ≥ −0.49`, `|Σ b_i n_i|² ≥ Σ b_i² − 0.98 Σ b_i b_j ≥ 0.0066` everywhere on the triangle.
 fn has_opposite_normals(mesh: &Mesh, triangles: &[[u32; 3]]) -> bool {
     let normals = mesh.normals();
-    triangles.iter().any(|triangle| {
+    triangles.par_iter().with_min_len(1 << 12).any(|triangle| {
         let [a, b, c] = triangle.map(|index| normals[index as usize]);
         a.dot(b).min(b.dot(c)).min(c.dot(a)) < -0.49
     })

@@ -211,6 +211,11 @@ impl Outline {
         Self { center, radius, facing }
     }
 
+    /// A patch with this sphere around it, of whose normals nothing is known.
+    pub(super) fn shape(&self) -> PatchShape {
+        PatchShape { center: self.center, radius: self.radius, faces: None, normals: None }
+    }
+
     /// The radius of the sphere around it, in the mesh's units.
     pub(super) fn radius(&self) -> f32 {
         self.radius

@@ -35,6 +35,8 @@ pub struct Patches {
     groups: Vec<PatchGroup>,
     /// `None` where all patches are the mesh's own.
     levels: Option<Levels>,
+    /// Whether it is one patch, of which nothing but the sphere around it is known.
+    is_uncut: bool,
     /// The outline of the whole mesh.
     pub(crate) whole: Outline,
     /// How large the patches are together, measured by the mesh, when the triangles were sorted into them.
@@ -84,6 +86,13 @@ impl MeshTriangles {
         Self::new(corners, patches)
     }
 
+    /// The mesh as a single patch whose normals are not looked at, in the order of its triangles: for the first frame,
+    /// which takes less time than cutting it, and may be the only one.
+    pub(crate) fn uncut(mesh: &Mesh) -> Self {
+        let (whole, corners) = rayon::join(|| Outline::whole(mesh), || mesh.triangles().collect());
+        Self::new(corners, Patches::uncut(mesh, whole))
+    }
+
     /// The mesh cut into patches.
     pub(crate) fn in_patches(mesh: &Mesh) -> Self {
         let mut corners: Vec<_> = mesh.triangles().collect();
@@ -116,6 +125,19 @@ impl Patches {
         patches
     }
 
+    fn uncut(mesh: &Mesh, whole: Outline) -> Self {
+        Self {
+            shapes: vec![whole.shape()],
+            outlines: vec![whole],
+            starts: vec![0, mesh.indices().len() as u32],
+            groups: vec![PatchGroup { outline: whole, patches: 0..1 }],
+            levels: None,
+            is_uncut: true,
+            whole,
+            spread: 0.0,
+        }
+    }
+
     /// Patches whose indices begin at `starts`; all but the last, where those of the last patch end.
     fn between(mesh: &Mesh, triangles: &[[u32; 3]], starts: Vec<u32>) -> Self {
         let run = |ends: &[u32]| &triangles[ends[0] as usize / 3..ends[1] as usize / 3];
@@ -127,13 +149,15 @@ impl Patches {
             patches: first..first + outlines.len() as u32,
         });
         let groups = groups.collect();
-        Self { shapes, outlines, starts, groups, levels: None, whole: Outline::whole(mesh), spread: 0.0 }
+        let whole = Outline::whole(mesh);
+        Self { shapes, outlines, starts, groups, levels: None, is_uncut: false, whole, spread: 0.0 }
     }
 
     /// The same patches of a mesh whose vertices have moved. `None` where they have come to lie so far apart that it
-    /// pays to sort the triangles anew, and for levels of detail, which belong to the places that vertices had.
+    /// pays to sort the triangles anew, for a mesh that is not cut, and for levels of detail, which belong to the places
+    /// that vertices had.
     pub(crate) fn moved_to(&self, mesh: &Mesh, triangles: &[[u32; 3]]) -> Option<Self> {
-        if self.levels.is_some() {
+        if self.levels.is_some() || self.is_uncut {
             return None;
         }
         let patches = Self::between(mesh, triangles, self.starts.clone());
@@ -163,6 +187,11 @@ impl Patches {
     /// The range of a patch's indices among those of the mesh as it is drawn.
     pub fn indices(&self, patch: u32) -> Range<u32> {
         self.starts[patch as usize]..self.starts[patch as usize + 1]
+    }
+
+    /// Whether the mesh is large enough to be cut, and is not.
+    pub fn is_uncut(&self) -> bool {
+        self.is_uncut
     }
 
     /// Whether there are levels of detail, that is, several patches for one part of the surface.

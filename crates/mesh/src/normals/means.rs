@@ -17,17 +17,17 @@ const CANCELLED: f64 = 1e-6;
 /// of the triangles: sums do not depend on the number of threads, and the block stays in the cache.
 const BLOCK: usize = 1 << 14;
 
-/// The normals of all vertices. `indices` has three a triangle, all in range.
+/// The normals of all vertices: one a point. `indices` has three a triangle, all in range.
 pub(crate) fn vertex_normals(
     positions: &[Vec3],
+    points: &Numbering,
     indices: &[u32],
     weighting: NormalWeighting,
 ) -> (Vec<Vec3>, NormalReport) {
-    let groups = Numbering::from_positions(positions);
     let means =
-        Means::new(positions, indices, groups.count(), weighting, |corner| groups.numbers[indices[corner] as usize]);
+        Means::new(positions, indices, points.count(), weighting, |corner| points.numbers[indices[corner] as usize]);
     let mut report = means.report;
-    let normals = groups.numbers.iter().map(|&group| means.normal(group, &mut report)).collect();
+    let normals = points.numbers.iter().map(|&group| means.normal(group, &mut report)).collect();
     (normals, report)
 }
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{NormalReport, Normals, creased_normals, face_normals, vertex_normals};
+use super::{NormalReport, NormalWeighting, Normals, creased_normals, face_normals, vertex_normals};
 use crate::Mesh;
 
 impl Mesh {
@@ -27,7 +27,11 @@ impl Mesh {
                 (mesh, NormalReport { degenerate_triangles, ..NormalReport::default() })
             }
             Normals::Weighted(weighting) => {
-                let (normals, report) = vertex_normals(self.positions(), self.indices(), weighting);
+                let known = self.report_of_default_normals().filter(|_| weighting == NormalWeighting::default());
+                if let Some(report) = known {
+                    return (self.with_normals_as_given(), report);
+                }
+                let (normals, report) = vertex_normals(self.positions(), &self.points(), self.indices(), weighting);
                 (self.with_given_normals(normals), report)
             }
             Normals::Creased { angle, weighting } => creased_normals(&self, angle, weighting),

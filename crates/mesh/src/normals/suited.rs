@@ -6,12 +6,14 @@ use glam::Vec3;
 
 #[cfg(feature = "formats")]
 use super::creased_normals;
-use super::{NormalWeighting, Normals, face_normal};
+use super::{NormalWeighting, Normals, face_normal, face_normals};
 use crate::Mesh;
 #[cfg(feature = "formats")]
 use crate::Model;
 use crate::edges::Edges;
+#[cfg(feature = "formats")]
 use crate::numbering::Numbering;
+use rayon::prelude::*;
 
 /// Degrees of a bin of the histogram of angles between neighbouring triangles.
 const BIN: usize = 5;
@@ -59,24 +61,34 @@ impl Mesh {
 
     /// The angle above which edges are sharp, in degrees; `None` where no edges stand apart.
     fn crease(&self) -> Option<f32> {
-        let points = Numbering::from_positions(self.positions());
+        let points = self.points();
         // The share that is counted is one in a power of two.
         let halvings = (self.triangle_count() / COUNTED).checked_ilog2().unwrap_or(0).min(20);
         // Neighbours in the numbering are often neighbours in space, so the product scatters them.
         let is_taken = |point: u32| halvings == 0 || point.wrapping_mul(0x9e37_79b1) >> (32 - halvings) == 0;
         let edges = Edges::at_points(points.triangles(self.indices()), is_taken);
+        // Where most triangles are asked for, and each by several edges.
+        let all = if halvings < 2 { face_normals(self.positions(), self.indices()) } else { Vec::new() };
         let normal = |pass: u32| {
-            let triangle = self.indices().as_chunks::<3>().0[pass as usize / 3];
-            let [a, b, c] = triangle.map(|i| self.positions()[i as usize]);
-            face_normal(a, b, c).map(Vec3::as_dvec3)
+            let triangle = pass as usize / 3;
+            let made = || {
+                let [a, b, c] = self.indices().as_chunks::<3>().0[triangle].map(|i| self.positions()[i as usize]);
+                face_normal(a, b, c)
+            };
+            all.get(triangle).map_or_else(made, |n| Some(*n).filter(|n| *n != Vec3::ZERO)).map(Vec3::as_dvec3)
         };
-        let mut bins = [0_usize; 180 / BIN + 1];
-        for edge in edges.iter() {
-            let Some([a, b]) = edges.regular(&edge) else { continue };
-            let (Some(a), Some(b)) = (normal(a), normal(b)) else { continue };
-            let degrees = a.cross(b).length().atan2(a.dot(b)).to_degrees();
-            bins[degrees as usize / BIN] += 1;
-        }
+        let counted = edges.par_parts().map(|edges_of_part| {
+            let mut bins = [0_usize; 180 / BIN + 1];
+            for edge in edges_of_part {
+                let Some([a, b]) = edges.regular(&edge) else { continue };
+                let (Some(a), Some(b)) = (normal(a), normal(b)) else { continue };
+                let degrees = a.cross(b).length().atan2(a.dot(b)).to_degrees();
+                bins[degrees as usize / BIN] += 1;
+            }
+            bins
+        });
+        let none = || [0_usize; 180 / BIN + 1];
+        let bins = counted.reduce(none, |a, b| std::array::from_fn(|bin| a[bin] + b[bin]));
         let count: usize = bins.iter().sum();
         let inside = |first: usize| bins[first..first + VALLEY].iter().sum::<usize>();
         let first = LOWEST.min_by_key(|&first| inside(first))?;
@@ -94,8 +106,7 @@ impl Mesh {
     /// assert!(Mesh::from(Plane::default()).is_open() && !Mesh::from(Cuboid::default()).is_open());
     /// ```
     pub fn is_open(&self) -> bool {
-        let points = Numbering::from_positions(self.positions());
-        let triangles = points.triangles(self.indices());
+        let triangles = self.points().triangles(self.indices());
         // Where every edge has an even number of triangles, the numbers of all ends cancel out; that they do so
         // elsewhere is less likely than a fault of the machine.
         let mut sum = 0_u64;

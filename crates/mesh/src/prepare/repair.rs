@@ -66,7 +66,7 @@ impl Mesh {
     /// Every triangle is degenerate.
     pub fn repaired(&self) -> Result<(Self, RepairReport), MeshError> {
         let mut report = RepairReport::default();
-        let groups = Numbering::from_positions(self.positions());
+        let groups = self.points();
         let sound = self.sound_triangles(&groups, &mut report);
         if sound.is_empty() {
             return Err(MeshError::NoTriangles);

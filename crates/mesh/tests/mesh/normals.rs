@@ -281,3 +281,26 @@ fn the_number_of_threads_does_not_matter() {
         assert_eq!(one, five, "{policy:?}");
     }
 }
+
+#[test]
+fn normals_that_a_mesh_has_are_those_that_are_computed() {
+    // A fold whose normals cancel, a triangle without area, and a vertex of none.
+    let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, 2.0 * Vec3::X, Vec3::ONE];
+    let indices = vec![0, 1, 2, 0, 2, 1, 0, 1, 4];
+    let (mesh, report) = Mesh::from_parts_reported(positions.clone(), None, None, indices.clone()).unwrap();
+    let given = vec![Vec3::Z; positions.len()];
+    let other = Mesh::from_parts(positions, Some(given), None, indices).unwrap();
+    let policy = Normals::Weighted(NormalWeighting::default());
+    let (known, known_report) = mesh.clone().with_normals(policy);
+    let (computed, computed_report) = other.clone().with_normals(policy);
+    assert!(!report.is_clean());
+    assert_eq!((known.normals(), known_report), (computed.normals(), computed_report));
+    assert_eq!(known_report, report);
+    assert!(known.has_given_normals() && !mesh.has_given_normals());
+    // Moved vertices keep their normals until others are asked for.
+    let moved: Vec<Vec3> = mesh.positions().iter().map(|p| Vec3::new(p.z, p.x + p.z, p.y)).collect();
+    let [mut mesh, mut other] = [mesh, other];
+    mesh.set_positions(moved.clone()).unwrap();
+    other.set_positions(moved).unwrap();
+    assert_eq!(mesh.with_normals(policy), other.with_normals(policy));
+}

@@ -10,6 +10,10 @@ pub(crate) const PIECE_TRIANGLES: usize = 64;
 pub(crate) const PIECE_VERTICES: usize = 96;
 /// Vertices begin at multiples of this, the largest width.
 const ALIGNED: usize = 16;
+/// The attributes of so many vertices are gathered by one thread.
+const GATHERED: usize = 1 << 13;
+/// For errors.
+const MEMORY: &str = "a mesh's pieces";
 
 /// A mesh prepared for drawing: pieces (meshlets) of up to 64 triangles with vertices of their own, so that each is
 /// transformed, culled and binned into tiles by itself. Made once for a mesh, and kept with it.
@@ -109,8 +113,6 @@ impl Pieces {
         check(positions, &lists, indices)?;
         let whole = 0..indices.len() as u32;
         let cuts = if cuts.is_empty() { std::slice::from_ref(&whole) } else { cuts };
-        let mut pieces = Self { index_count: indices.len() as u32, ..Self::default() };
-        let mut builder = Builder::new(positions, lists, indices)?;
         let mut end = 0;
         for (index, cut) in cuts.iter().enumerate() {
             if cut.start != end || cut.end < cut.start || cut.end % 3 != 0 || cut.end as usize > indices.len() {
@@ -118,14 +120,50 @@ impl Pieces {
                 return Err(RasterError::Reference { what: "cut", index, field: "indices", reaches, available });
             }
             end = cut.end;
-            builder.cut(&mut pieces, cut.clone(), order)?;
         }
         if end as usize != indices.len() {
             let (index, reaches, available) = (cuts.len(), u64::from(end), indices.len() as u64);
             return Err(RasterError::Reference { what: "cut", index, field: "indices", reaches, available });
         }
+        let source = PieceSource { positions, normals: lists.normals, indices };
+        let order = source.order(cuts, order)?;
+        let works = works(cuts);
+        let part = |work: &Work| Part::new(source, order.as_deref(), &cuts[work.cuts.clone()], &work.triangles);
+        // A small mesh does not wake the threads.
+        let parts: Result<Vec<_>, _> =
+            if works.len() == 1 { works.iter().map(part).collect() } else { works.par_iter().map(part).collect() };
+        let mut pieces = Self { index_count: end, reordered: order.is_some(), ..Self::default() };
+        let vertices = pieces.join(parts?)?;
+        let VertexLists { normals, colors, uvs, tangents } = lists;
+        let without_normals = [[0.0; 3]];
+        let normals = if normals.is_empty() { &without_normals } else { normals };
+        fill(&mut pieces.positions, positions, &vertices)?;
+        fill(&mut pieces.normals, normals, &vertices)?;
+        fill(&mut pieces.colors, colors, &vertices)?;
+        fill(&mut pieces.uvs, uvs, &vertices)?;
+        fill(&mut pieces.tangents, tangents, &vertices)?;
         pieces.extent = PieceExtent::around(positions.iter().copied());
         Ok(pieces)
+    }
+
+    /// Puts parts one after the other. Returns the number in the mesh of each vertex of the pieces.
+    fn join(&mut self, parts: Vec<Part>) -> Result<Vec<u32>, RasterError> {
+        let count = |of: fn(&Part) -> usize| parts.iter().map(of).sum();
+        reserve(&mut self.each, count(|part| part.each.len()), MEMORY)?;
+        reserve(&mut self.triangles, count(|part| part.triangles.len()), MEMORY)?;
+        let mut vertices = Vec::new();
+        reserve(&mut vertices, count(|part| part.vertices.len()), MEMORY)?;
+        for part in parts {
+            let (vertex, triangle) = (vertices.len() as u32, self.triangles.len() as u32);
+            self.each.extend(part.each.into_iter().map(|piece| Piece {
+                first_vertex: vertex + piece.first_vertex,
+                triangles: triangle + piece.triangles.start..triangle + piece.triangles.end,
+                ..piece
+            }));
+            self.triangles.extend(part.triangles);
+            vertices.extend(part.vertices);
+        }
+        Ok(vertices)
     }
 
     /// Moves the vertices of a mesh whose triangles stay: `indices` is the list that these pieces were cut from. Sorts
@@ -143,38 +181,28 @@ impl Pieces {
         let Some(vertices) = fits.then(|| self.vertices(indices)).flatten() else { return false };
         let VertexLists { normals, colors, uvs, tangents } = lists;
         let normals = if normals.is_empty() { &[[0.0; 3]][..] } else { normals };
-        rayon::join(
-            || {
-                rayon::join(
-                    || gather(&mut self.positions, positions, &vertices),
-                    || {
-                        gather(&mut self.normals, normals, &vertices);
-                    },
-                );
-                gather(&mut self.colors, colors, &vertices);
-                gather(&mut self.uvs, uvs, &vertices);
-                gather(&mut self.tangents, tangents, &vertices);
-                self.extent = PieceExtent::around(positions.iter().copied());
-            },
-            || {
-                self.each.par_iter_mut().with_min_len(16).for_each(|piece| {
-                    let own = piece.first_vertex as usize..(piece.first_vertex + piece.vertex_count) as usize;
-                    let triangles = piece.triangles.start as usize..piece.triangles.end as usize;
-                    let corners = &indices.as_chunks::<3>().0[triangles];
-                    let points = |corners: &[u32; 3]| corners.map(|corner| positions[corner as usize]);
-                    piece.extent = PieceExtent::around(vertices[own].iter().map(|&vertex| positions[vertex as usize]));
-                    piece.cone = cone(corners.iter().map(points));
-                    piece.opposite_normals = corners.iter().any(|corners| has_opposite_normals(normals, *corners));
-                });
-            },
-        );
+        gather(&mut self.positions, positions, &vertices);
+        gather(&mut self.normals, normals, &vertices);
+        gather(&mut self.colors, colors, &vertices);
+        gather(&mut self.uvs, uvs, &vertices);
+        gather(&mut self.tangents, tangents, &vertices);
+        self.extent = PieceExtent::around(positions.iter().copied());
+        self.each.par_iter_mut().with_min_len(16).for_each(|piece| {
+            let own = piece.first_vertex as usize..(piece.first_vertex + piece.vertex_count) as usize;
+            let triangles = piece.triangles.start as usize..piece.triangles.end as usize;
+            let corners = &indices.as_chunks::<3>().0[triangles];
+            let points = |corners: &[u32; 3]| corners.map(|corner| positions[corner as usize]);
+            piece.extent = PieceExtent::around(vertices[own].iter().map(|&vertex| positions[vertex as usize]));
+            piece.cone = cone(corners.iter().map(points));
+            piece.opposite_normals = corners.iter().any(|corners| has_opposite_normals(normals, *corners));
+        });
         true
     }
 
     /// Of each vertex of the pieces its number in the mesh, where triangles are in the order of the indices.
     fn vertices(&self, indices: &[u32]) -> Option<Vec<u32>> {
         let mut vertices = Vec::new();
-        reserve(&mut vertices, self.positions[0].len(), "a mesh's pieces").ok()?;
+        reserve(&mut vertices, self.positions[0].len(), MEMORY).ok()?;
         vertices.resize(self.positions[0].len(), 0);
         for piece in &self.each {
             let (first, count) = (piece.first_vertex as usize, piece.vertex_count as usize);
@@ -231,13 +259,39 @@ impl Pieces {
     }
 }
 
+/// The same of lists that are empty, unless there is nothing to fill them with.
+fn fill<const N: usize>(lists: &mut [Vec<f32>; N], of: &[[f32; N]], vertices: &[u32]) -> Result<(), RasterError> {
+    if of.is_empty() {
+        return Ok(());
+    }
+    for list in &mut *lists {
+        reserve(list, vertices.len(), MEMORY)?;
+        list.resize(vertices.len(), 0.0);
+    }
+    gather(lists, of, vertices);
+    Ok(())
+}
+
 /// Fills lists of coordinates with those of the numbered vertices; leaves empty ones empty. Of a list of one entry all
 /// vertices take that.
 fn gather<const N: usize>(lists: &mut [Vec<f32>; N], of: &[[f32; N]], vertices: &[u32]) {
-    for (axis, list) in lists.iter_mut().enumerate().filter(|(_, list)| !list.is_empty()) {
-        for (to, &vertex) in list.iter_mut().zip(vertices) {
-            *to = of[if of.len() == 1 { 0 } else { vertex as usize }][axis];
+    if lists[0].is_empty() {
+        return;
+    }
+    let mut parts = lists.each_mut().map(|list| list.chunks_mut(GATHERED));
+    let parts: Vec<_> = vertices.chunks(GATHERED).map(|own| (own, parts.each_mut().map(Iterator::next))).collect();
+    let gather = |(own, mut to): (&[u32], [Option<&mut [f32]>; N])| {
+        for (k, &vertex) in own.iter().enumerate() {
+            let entry = of[if of.len() == 1 { 0 } else { vertex as usize }];
+            for (to, x) in to.iter_mut().flatten().zip(entry) {
+                to[k] = x;
+            }
         }
+    };
+    if parts.len() == 1 {
+        parts.into_iter().for_each(gather);
+    } else {
+        parts.into_par_iter().for_each(gather);
     }
 }
 
@@ -295,16 +349,12 @@ fn check_numbers<const N: usize>(
     }
 }
 
-struct Builder<'a> {
+/// The mesh that pieces are made of.
+#[derive(Clone, Copy)]
+struct PieceSource<'a> {
     positions: &'a [[f32; 3]],
-    lists: VertexLists<'a>,
+    normals: &'a [[f32; 3]],
     indices: &'a [u32],
-    /// For each vertex its number in the current piece, and that piece.
-    local: Vec<(u32, u8)>,
-    /// The vertices of the current piece.
-    used: Vec<u32>,
-    /// A run's triangles in the order of drawing.
-    order: Vec<u32>,
 }
 
 fn reserve<T>(list: &mut Vec<T>, more: usize, what: &'static str) -> Result<(), RasterError> {
@@ -312,14 +362,7 @@ fn reserve<T>(list: &mut Vec<T>, more: usize, what: &'static str) -> Result<(), 
     list.try_reserve(more).map_err(|_| RasterError::Memory { what, bytes })
 }
 
-impl<'a> Builder<'a> {
-    fn new(positions: &'a [[f32; 3]], lists: VertexLists<'a>, indices: &'a [u32]) -> Result<Self, RasterError> {
-        let mut local = Vec::new();
-        reserve(&mut local, positions.len(), "a mesh's pieces")?;
-        local.resize(positions.len(), (u32::MAX, 0));
-        Ok(Self { positions, lists, indices, local, used: Vec::with_capacity(PIECE_VERTICES), order: Vec::new() })
-    }
-
+impl PieceSource<'_> {
     fn corners(&self, triangle: u32) -> [u32; 3] {
         let first = 3 * triangle as usize;
         [self.indices[first], self.indices[first + 1], self.indices[first + 2]]
@@ -329,92 +372,176 @@ impl<'a> Builder<'a> {
         self.corners(triangle).map(|corner| self.positions[corner as usize])
     }
 
-    fn cut(&mut self, pieces: &mut Pieces, cut: Range<u32>, order: TriangleOrder) -> Result<(), RasterError> {
-        let triangles = cut.start / 3..cut.end / 3;
-        self.order.clear();
-        reserve(&mut self.order, triangles.len(), "a mesh's pieces")?;
-        if order == TriangleOrder::Clustered && triangles.len() > PIECE_TRIANGLES {
-            let mut centers = Vec::new();
-            reserve(&mut centers, triangles.len(), "a mesh's pieces")?;
-            centers.extend(triangles.map(|triangle| (box_center(self.points(triangle)), triangle)));
-            cluster(&mut centers);
-            pieces.reordered = true;
-            self.order.extend(centers.iter().map(|&(_, triangle)| triangle));
-        } else {
-            self.order.extend(triangles);
+    /// The triangles in the order in which they are drawn; `None` where that is the mesh's.
+    fn order(&self, cuts: &[Range<u32>], order: TriangleOrder) -> Result<Option<Vec<u32>>, RasterError> {
+        let is_sorted = |cut: &Range<u32>| order == TriangleOrder::Clustered && cut.len() > 3 * PIECE_TRIANGLES;
+        if !cuts.iter().any(is_sorted) {
+            return Ok(None);
         }
-        reserve(&mut pieces.triangles, self.order.len(), "a mesh's pieces")?;
-        let mut piece_start = 0;
-        for at in 0..self.order.len() {
-            let new = self.count_new(pieces.each.len(), self.order[at]);
-            // Pieces end where clusters end, also after a piece that was cut short by its vertices.
-            if at > piece_start && (at.is_multiple_of(PIECE_TRIANGLES) || self.used.len() + new > PIECE_VERTICES) {
-                self.finish(pieces, piece_start..at, cut.clone())?;
-                piece_start = at;
+        let mut sorted = Vec::new();
+        reserve(&mut sorted, self.indices.len() / 3, MEMORY)?;
+        let mut centers = Vec::new();
+        for cut in cuts {
+            let triangles = cut.start / 3..cut.end / 3;
+            if is_sorted(cut) {
+                centers.clear();
+                reserve(&mut centers, triangles.len(), MEMORY)?;
+                centers.extend(triangles.map(|triangle| (box_center(self.points(triangle)), triangle)));
+                cluster(&mut centers);
+                sorted.extend(centers.iter().map(|&(_, triangle)| triangle));
+            } else {
+                sorted.extend(triangles);
             }
-            self.add(pieces, self.order[at]);
         }
-        if piece_start < self.order.len() {
-            self.finish(pieces, piece_start..self.order.len(), cut)?;
+        Ok(Some(sorted))
+    }
+}
+
+/// A share of the pieces, which one thread makes: some triangles of a cut, or several whole cuts.
+struct Work {
+    cuts: Range<usize>,
+    triangles: Range<u32>,
+}
+
+/// So many triangles are worth a thread; a multiple of a piece's.
+const WORTH_A_THREAD: u32 = 32 * PIECE_TRIANGLES as u32;
+
+/// The shares of cuts that have been checked. Within a cut they begin where pieces do.
+fn works(cuts: &[Range<u32>]) -> Vec<Work> {
+    let mut works: Vec<Work> = Vec::new();
+    for (number, cut) in cuts.iter().enumerate() {
+        let triangles = cut.start / 3..cut.end / 3;
+        match works.last_mut() {
+            Some(last) if last.triangles.len() + triangles.len() <= WORTH_A_THREAD as usize => {
+                (last.cuts.end, last.triangles.end) = (number + 1, triangles.end);
+            }
+            _ => {
+                let shares = triangles.clone().step_by(WORTH_A_THREAD as usize);
+                let end = |first: u32| triangles.end.min(first.saturating_add(WORTH_A_THREAD));
+                works.extend(shares.map(|first| Work { cuts: number..number + 1, triangles: first..end(first) }));
+            }
         }
+    }
+    works
+}
+
+/// Pieces that one thread has made.
+#[derive(Default)]
+struct Part {
+    each: Vec<Piece>,
+    triangles: Vec<[u8; 3]>,
+    /// The number in the mesh of each vertex.
+    vertices: Vec<u32>,
+}
+
+impl Part {
+    /// The pieces of these triangles of some cuts. Pieces end where clusters end, also after a piece that was cut short by
+    /// its vertices.
+    fn new(
+        source: PieceSource,
+        order: Option<&[u32]>,
+        cuts: &[Range<u32>],
+        triangles: &Range<u32>,
+    ) -> Result<Self, RasterError> {
+        let mut part = Self::default();
+        reserve(&mut part.triangles, triangles.len(), MEMORY)?;
+        let mut own = OwnVertices::new();
+        let mut drawn = Vec::with_capacity(PIECE_TRIANGLES);
+        for cut in cuts {
+            let first = (cut.start / 3).max(triangles.start);
+            for at in first..(cut.end / 3).min(triangles.end) {
+                let triangle = order.map_or(at, |order| order[at as usize]);
+                let corners = source.corners(triangle);
+                let is_next = (at - first).is_multiple_of(PIECE_TRIANGLES as u32) && at > first;
+                if is_next || own.used.len() + own.count_new(corners) > PIECE_VERTICES {
+                    part.finish(source, cut, &mut own, &mut drawn)?;
+                }
+                part.triangles.push(corners.map(|corner| own.number(corner)));
+                drawn.push(triangle);
+            }
+            part.finish(source, cut, &mut own, &mut drawn)?;
+        }
+        Ok(part)
+    }
+
+    /// Ends a piece, unless it is empty.
+    fn finish(
+        &mut self,
+        source: PieceSource,
+        cut: &Range<u32>,
+        own: &mut OwnVertices,
+        drawn: &mut Vec<u32>,
+    ) -> Result<(), RasterError> {
+        let Some(&last) = own.used.last() else { return Ok(()) };
+        let (first_vertex, end) = (self.vertices.len(), self.triangles.len() as u32);
+        let padded = own.used.len().next_multiple_of(ALIGNED);
+        reserve(&mut self.vertices, padded, MEMORY)?;
+        reserve(&mut self.each, 1, MEMORY)?;
+        self.vertices.extend_from_slice(&own.used);
+        // The rest repeats the last vertex, so that all numbers are ordinary.
+        self.vertices.resize(first_vertex + padded, last);
+        let has_opposite = |&triangle: &u32| has_opposite_normals(source.normals, source.corners(triangle));
+        self.each.push(Piece {
+            cut: cut.clone(),
+            first_vertex: first_vertex as u32,
+            vertex_count: own.used.len() as u32,
+            triangles: end - drawn.len() as u32..end,
+            extent: PieceExtent::around(own.used.iter().map(|&vertex| source.positions[vertex as usize])),
+            cone: cone(drawn.iter().map(|&triangle| source.points(triangle))),
+            opposite_normals: drawn.iter().any(has_opposite),
+        });
+        own.clear();
+        drawn.clear();
         Ok(())
+    }
+}
+
+/// The vertices of a piece, with numbers of its own: a small hash table, since the mesh may have millions.
+struct OwnVertices {
+    used: Vec<u32>,
+    /// For each place the vertex, its number, and the piece that has put it there.
+    places: Vec<(u32, u8, u32)>,
+    piece: u32,
+}
+
+/// The places of the table: five times as many as vertices.
+const PLACES: usize = 512;
+
+impl OwnVertices {
+    fn new() -> Self {
+        Self { used: Vec::with_capacity(PIECE_VERTICES), places: vec![(0, 0, 0); PLACES], piece: 1 }
+    }
+
+    fn clear(&mut self) {
+        self.used.clear();
+        self.piece += 1;
+    }
+
+    /// The place of a vertex, and whether it is there.
+    fn place(&self, vertex: u32) -> (usize, bool) {
+        // The golden ratio scatters them, whatever the stride of the mesh's rows.
+        let mut place = (vertex.wrapping_mul(0x9e37_79b1) >> (32 - PLACES.ilog2())) as usize;
+        loop {
+            match self.places[place] {
+                (there, _, piece) if piece == self.piece && there != vertex => place = (place + 1) % PLACES,
+                (_, _, piece) => return (place, piece == self.piece),
+            }
+        }
     }
 
     /// The number of a triangle's vertices that the piece does not have yet, 0 to 3.
-    fn count_new(&self, piece: usize, triangle: u32) -> usize {
-        self.corners(triangle).into_iter().filter(|&corner| self.local[corner as usize].0 != piece as u32).count()
+    fn count_new(&self, corners: [u32; 3]) -> usize {
+        corners.into_iter().filter(|&corner| !self.place(corner).1).count()
     }
 
-    fn add(&mut self, pieces: &mut Pieces, triangle: u32) {
-        let piece = pieces.each.len() as u32;
-        let numbers = self.corners(triangle).map(|corner| {
-            let local = &mut self.local[corner as usize];
-            if local.0 != piece {
-                *local = (piece, self.used.len() as u8);
-                self.used.push(corner);
-            }
-            local.1
-        });
-        pieces.triangles.push(numbers);
-    }
-
-    fn finish(&mut self, pieces: &mut Pieces, of: Range<usize>, cut: Range<u32>) -> Result<(), RasterError> {
-        let first_vertex = pieces.positions[0].len();
-        let padded = self.used.len().next_multiple_of(ALIGNED);
-        for axis in 0..3 {
-            reserve(&mut pieces.positions[axis], padded, "a mesh's pieces")?;
-            reserve(&mut pieces.normals[axis], padded, "a mesh's pieces")?;
-            for k in 0..padded {
-                // The rest repeats the last vertex, so that all numbers are ordinary.
-                let vertex = self.used[k.min(self.used.len() - 1)] as usize;
-                pieces.positions[axis].push(self.positions[vertex][axis]);
-                pieces.normals[axis].push(self.lists.normals.get(vertex).map_or(0.0, |normal| normal[axis]));
-            }
+    /// The number of a vertex, which is added unless it is there.
+    fn number(&mut self, vertex: u32) -> u8 {
+        let (place, is_there) = self.place(vertex);
+        if !is_there {
+            self.places[place] = (vertex, self.used.len() as u8, self.piece);
+            self.used.push(vertex);
         }
-        let VertexLists { colors, uvs, tangents, .. } = self.lists;
-        for (list, to) in [(colors, &mut pieces.colors), (uvs, &mut pieces.uvs), (tangents, &mut pieces.tangents)] {
-            for (axis, to) in to.iter_mut().enumerate().filter(|_| !list.is_empty()) {
-                reserve(to, padded, "a mesh's pieces")?;
-                let used = (0..padded).map(|k| self.used[k.min(self.used.len() - 1)] as usize);
-                to.extend(used.map(|vertex| list[vertex][axis]));
-            }
-        }
-        let extent = PieceExtent::around(self.used.iter().map(|&vertex| self.positions[vertex as usize]));
-        let end = pieces.triangles.len() as u32;
-        reserve(&mut pieces.each, 1, "a mesh's pieces")?;
-        pieces.each.push(Piece {
-            cut,
-            first_vertex: first_vertex as u32,
-            vertex_count: self.used.len() as u32,
-            triangles: end - of.len() as u32..end,
-            extent,
-            cone: cone(self.order[of.clone()].iter().map(|&triangle| self.points(triangle))),
-            opposite_normals: self.order[of]
-                .iter()
-                .any(|&triangle| has_opposite_normals(self.lists.normals, self.corners(triangle))),
-        });
-        self.used.clear();
-        Ok(())
+        self.places[place].1
     }
 }
 

@@ -64,7 +64,7 @@ impl Oracle {
                 let (row, column) = (number as u32 / width, number as u32 % width);
                 let [x, y] = [origin[0] + column, origin[1] + row].map(f64::from);
                 let behind = self.scene.behind(self.scene.view.direction(x + offset[0], y + offset[1]));
-                let color = layers.color(&self.scene, behind, self.clamp);
+                let color = layers.color(&self.scene, behind, self.clamps());
                 let (sum, covered) = &mut part.pixels[number];
                 *sum = [0, 1, 2].map(|k| sum[k] + share * color[k]);
                 *covered |= !layers.is_empty();

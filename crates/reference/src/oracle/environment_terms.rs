@@ -10,11 +10,15 @@ use halfway_lighting::equations::{
 
 use super::raster::{Hit, HitPoint};
 use super::scene::OracleScene;
+use super::shows::Shows;
 use super::solid::{Color, Solid};
 
 impl OracleScene {
     /// The colour along a ray that hits nothing: the sky or the background.
     pub(super) fn behind(&self, ray: DVec3) -> Color {
+        if self.shows != Shows::Color {
+            return [0.0; 3];
+        }
         let sky = self.environment.as_ref().and_then(|environment| Some((environment, environment.sky?)));
         sky.map_or(self.background, |(environment, level)| scale(environment.at(ray, level), environment.strength))
     }

@@ -20,7 +20,8 @@ const EQUAL_DEPTH: f64 = 1e-9;
 
 /// Whether a surface at depth `a` hides one that was drawn before at depth `b`.
 fn hides(a: f64, b: f64) -> bool {
-    a < b * (1.0 - EQUAL_DEPTH)
+    // An orthographic camera may see what is behind itself.
+    a < b - EQUAL_DEPTH * b.abs()
 }
 
 impl Layers {

@@ -1,8 +1,9 @@
 //! The oracle: what each pixel of a scene should be.
 //!
 //! `scene` transforms the world's entities into eye space (`view`, `solid`), `raster` intersects the ray through a
-//! point of the picture, `shade` computes the colour of a hit, `layers` blends the hits of a ray, `draw` does so for
-//! every pixel and `probe` for any point. `possible` lists the other colours that a pixel may show, for the judge.
+//! point of the picture, `shade` computes the colour of a hit and `shows` other values, `layers` blends the hits of a ray,
+//! `draw` does so for every pixel and `probe` for any point. `possible` lists the other colours that a pixel may show, for
+//! the judge.
 
 mod draw;
 mod environment;
@@ -18,6 +19,7 @@ mod probe;
 mod raster;
 mod scene;
 mod shade;
+mod shows;
 mod solid;
 mod view;
 
@@ -32,6 +34,7 @@ pub use error::{OracleError, Stopped};
 pub use mode::Mode;
 pub use possible::{ColorRange, Possible};
 pub use probe::{Nearest, Probe};
+pub use shows::Shows;
 
 use grid::VertexGrid;
 use raster::Tiles;
@@ -128,7 +131,20 @@ impl Oracle {
     /// `false`; ignored where the camera's [`Intensity`] acts on the finished picture.
     #[must_use]
     pub fn with_clamping(self, clamp: bool) -> Self {
-        Self { clamp: clamp && !self.scene.intensity.acts_on_pictures(), ..self }
+        Self { clamp, ..self }
+    }
+
+    /// Shows other values in place of the colours, which are then neither clamped nor changed by the camera's [`Intensity`].
+    /// Default [`Shows::Color`].
+    #[must_use]
+    pub fn showing(mut self, shows: Shows) -> Self {
+        self.scene.shows = shows;
+        self
+    }
+
+    /// Whether the camera sees an environment as its background.
+    pub fn has_sky(&self) -> bool {
+        self.scene.environment.as_ref().is_some_and(|environment| environment.sky.is_some())
     }
 
     /// Draws the frame after one that was divided by `before`, which matters under [`Intensity::Renormalize`] with
@@ -138,9 +154,19 @@ impl Oracle {
         Self { before, ..self }
     }
 
+    /// Whether intensities are clamped to 1 before they are blended.
+    fn clamps(&self) -> bool {
+        self.clamp && self.scene.shows == Shows::Color && !self.scene.intensity.acts_on_pictures()
+    }
+
+    /// What becomes of the finished picture.
+    fn policy(&self) -> Intensity {
+        if self.scene.shows == Shows::Color { self.scene.intensity } else { Intensity::Clamp }
+    }
+
     /// Applies the camera's intensity policy to the picture.
     fn under_policy(&self, image: Image) -> Image {
-        match self.scene.intensity {
+        match self.policy() {
             Intensity::Clamp => image,
             Intensity::Renormalize { smoothing } => {
                 let (largest, plain) = (image.largest(), 0.0);

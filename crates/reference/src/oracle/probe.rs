@@ -10,7 +10,7 @@ use super::raster::{Hit, Primitive};
 /// The colour and the nearest surface at a point of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
-    /// I, linear RGB, unclamped unless the oracle clamps, and before a policy that acts on the finished picture.
+    /// I, linear RGB, or the values that the oracle [shows](Oracle::showing); unclamped unless the oracle clamps, and before a policy that acts on the finished picture.
     pub color: [f64; 3],
     /// The nearest surface; `None` where there is only background.
     pub nearest: Option<Nearest>,
@@ -45,7 +45,7 @@ impl Oracle {
             depth: hit.depth,
             position: self.scene.view.world_from_point(ray.origin + ray.direction * hit.depth),
         });
-        Probe { color: layers.color(&self.scene, self.scene.behind(ray.direction), self.clamp), nearest }
+        Probe { color: layers.color(&self.scene, self.scene.behind(ray.direction), self.clamps()), nearest }
     }
 
     /// Where a point of the world lies on the picture, or beside it, in pixels from its top left corner; `None` before

@@ -18,6 +18,7 @@ use halfway_texture::{MapKind, Maps, Pyramid, SolidTexture, SurfaceMap, Texture}
 use super::environment::OracleEnvironment;
 use super::error::{ALWAYS, OracleError, label};
 use super::maps::MapSource;
+use super::shows::Shows;
 use super::solid::{Appearance, Color, Solid};
 use super::view::{PictureView, affine};
 
@@ -25,6 +26,7 @@ use super::view::{PictureView, affine};
 #[derive(Clone, Debug)]
 pub(super) struct OracleScene {
     pub(super) view: PictureView,
+    pub(super) shows: Shows,
     pub(super) viewer: equations::Eye<f64>,
     pub(super) background: Color,
     pub(super) samples: Samples,
@@ -55,6 +57,7 @@ impl OracleScene {
         let background = rgb(background);
         Ok(Self {
             view: defaults.view,
+            shows: Shows::Color,
             viewer,
             background,
             samples,

@@ -12,12 +12,22 @@ use halfway_texture::MapKind;
 use super::mapped::AnisotropicLobe;
 use super::raster::{Hit, HitPoint};
 use super::scene::OracleScene;
+use super::shows::Shows;
 use super::solid::{Color, Solid, TermSums};
 
 impl OracleScene {
+    /// The value that the side that a ray hits shows.
+    pub(super) fn value(&self, hit: &Hit) -> Color {
+        match self.shows {
+            Shows::Color => self.intensity_at(hit),
+            Shows::Albedo => self.albedo(hit),
+            Shows::Coverage => [1.0; 3],
+        }
+    }
+
     /// The intensity of the side that a ray hits: emission, ambient light, and the terms of the lights where they are
     /// evaluated. Images and solids multiply each of them at the point itself.
-    pub(super) fn value(&self, hit: &Hit) -> Color {
+    fn intensity_at(&self, hit: &Hit) -> Color {
         let solid = &self.solids[hit.solid];
         let side = solid.side(hit.front);
         let material = side.coefficients.tinted(solid.color(hit.on_triangle()).truncate().to_array());

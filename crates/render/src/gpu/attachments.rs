@@ -15,7 +15,7 @@ use halfway_frame::report::FrameReport;
 use halfway_frame::times::FrameTimes;
 use halfway_frame::values::{FrameValues, PixelValues, WaitsForLevels};
 use halfway_frame::view::camera::{PictureSize, View};
-use halfway_lighting::{AlphaMode, Camera, CameraTurn, Encoding, Load, Samples, Shown};
+use halfway_lighting::{AlphaMode, Camera, CameraTurn, Encoding, Load, Samples, SharingCameras, Shown};
 use halfway_mesh::Mesh3d;
 
 /// The target of the frame.
@@ -151,7 +151,7 @@ pub(crate) fn prepare(
     headless: Res<Headless>,
     surface: Option<ResMut<SurfaceTarget>>,
     texture: Option<Res<TextureTarget>>,
-    turn: Res<CameraTurn>,
+    (turn, sharing): (Res<CameraTurn>, SharingCameras),
     view: Res<View>,
     size: Res<PictureSize>,
     alphas: Query<(Entity, &AlphaMode), With<Mesh3d>>,
@@ -202,7 +202,8 @@ pub(crate) fn prepare(
     let encodes = camera.encoding == Encoding::Srgb;
     let (format, given, delivery) = match (texture, surface) {
         (Some(texture), _) => {
-            let shared = if turn.0.is_none() { Ok(()) } else { Err(texture.shared()) };
+            let is_shared = !sharing.parts(size.to_array()).is_empty();
+            let shared = if is_shared { Err(texture.shared()) } else { Ok(()) };
             if let Err(error) = shared.and_then(|()| texture.check(&gpu, &camera, (samples, blends))) {
                 report.errors.push(error);
                 return;

@@ -56,6 +56,32 @@ use halfway_lighting::{Camera, Encoding, Load, Samples};
 /// [`OverView::clip_from_world`](crate::OverView::clip_from_world) is the matrix to use. An orthographic camera needs its
 /// far plane for that: without one, depth spans the visible objects.
 ///
+/// # Several cameras
+/// Cameras that share a picture by a [`Viewport`](halfway_lighting::Viewport) do not share a texture: that is
+/// [`RenderError::BadTarget`]. Cameras without one draw in turn, each in an update of its own, and the target's `viewport` is
+/// the part of each. The first one clears the texture.
+///
+/// ```no_run
+/// # use bevy_app::App;
+/// # use bevy_ecs::prelude::Entity;
+/// # use bevy_math::URect;
+/// # use halfway_lighting::CameraTurn;
+/// # use halfway_render::{Gpu, Load, RenderError, TextureTarget, encode_frame, wgpu};
+/// # fn draw(app: &mut App, gpu: &Gpu, target: &TextureTarget, cameras: [(Entity, URect); 2]) -> Result<(), RenderError> {
+/// for (number, (camera, part)) in cameras.into_iter().enumerate() {
+///     let load = if number == 0 { Load::Clear } else { Load::Keep };
+///     app.insert_resource(CameraTurn(Some(camera)));
+///     app.insert_resource(TextureTarget { viewport: Some(part), load, ..target.clone() });
+///     app.update();
+///     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+///     encode_frame(app.world(), &mut encoder)?;
+///     gpu.queue.submit([encoder.finish()]);
+/// }
+/// # Ok(())
+/// # }
+/// ```
+///
+/// # Errors
 /// These do not go together, and are [`RenderError::BadTarget`] with what to change: [`Load::Keep`] and four samples a
 /// pixel, since the texture has one; a depth with another number of samples than the camera's; a policy of
 /// [`Intensity`](halfway_lighting::Intensity) other than `Clamp`, which passes over the whole picture, and [`Load::Keep`]
@@ -114,7 +140,8 @@ pub(crate) fn refuse_on_cpu(
 impl TextureTarget {
     /// The error of several cameras.
     pub(crate) fn shared(&self) -> RenderError {
-        let reason = "several cameras share the picture; expected one, with the target's `viewport` for a part of it";
+        let reason = "cameras share the picture by their `Viewport`; expected cameras without one that draw in turn, by \
+                      `CameraTurn`, each with the target's `viewport` as its part";
         RenderError::BadTarget { format: format!("{:?}", self.format), reason: reason.into() }
     }
 

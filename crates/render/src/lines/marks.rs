@@ -6,7 +6,7 @@ use crate::lines::mix::lay_over;
 use crate::lines::segment::{Reached, Segment};
 use crate::picture::Picture;
 use bevy_math::{DVec2, UVec2, Vec3, Vec4};
-use halfway_lighting::Encoding;
+use halfway_lighting::{Encoding, HiddenEdges};
 use std::ops::Range;
 
 /// A line or a disc on the picture.
@@ -23,6 +23,8 @@ enum Shape {
         /// Of its ends; see [`Lens::unfitted_nearness`](halfway_lighting::Lens::unfitted_nearness).
         nearness: [f64; 2],
         inks: [Ink; 2],
+        /// The length of the path before it, in pixels, for dashes.
+        before: f64,
     },
     Disc {
         disc: Disc,
@@ -39,6 +41,15 @@ pub(super) enum Hidden {
     Show,
 }
 
+impl From<HiddenEdges> for Hidden {
+    fn from(hidden: HiddenEdges) -> Self {
+        match hidden {
+            HiddenEdges::Omit => Self::Omit,
+            HiddenEdges::Dash => Self::Dash,
+        }
+    }
+}
+
 /// A colour, linear RGB, and its opacity.
 pub(super) type Ink = Vec4;
 
@@ -47,7 +58,15 @@ impl Mark {
     pub(super) fn line(placed: &Placed, widths: [f64; 2], inks: [Ink; 2], hidden: Hidden) -> Self {
         let segment = Segment { from: placed.ends[0], to: placed.ends[1], widths };
         let inks = placed.shares.map(|share| inks[0].lerp(inks[1], share as f32));
-        Self { shape: Shape::Line { segment, nearness: placed.nearness, inks }, hidden }
+        Self { shape: Shape::Line { segment, nearness: placed.nearness, inks, before: 0.0 }, hidden }
+    }
+
+    /// The same line as a part of a path that is this long before it, in pixels.
+    pub(super) fn after(mut self, length: f64) -> Self {
+        if let Shape::Line { before, .. } = &mut self.shape {
+            *before = length;
+        }
+        self
     }
 
     pub(super) fn disc(middle: DVec2, diameter: f64, depth: f64, ink: Ink) -> Self {
@@ -82,7 +101,7 @@ impl Mark {
     /// The share of each pixel in which it is seen.
     fn each(&self, drawing: &Drawing, mut reach: impl FnMut(u32, u32, Fragment)) {
         match self.shape {
-            Shape::Line { segment, nearness, inks } => {
+            Shape::Line { segment, nearness, inks, before } => {
                 let length = (segment.to - segment.from).length();
                 let is_parallel = drawing.lens().is_parallel;
                 segment.each(drawing.size(), |Reached { x, y, coverage, along }| {
@@ -94,7 +113,9 @@ impl Mark {
                     let shows = match self.hidden {
                         Hidden::Show => true,
                         Hidden::Omit => drawing.shows(sees, (at, half), depth, [x, y]),
-                        Hidden::Dash => is_dash(along * length) || drawing.shows(sees, (at, half), depth, [x, y]),
+                        Hidden::Dash => {
+                            is_dash(before + along * length) || drawing.shows(sees, (at, half), depth, [x, y])
+                        }
                     };
                     if shows {
                         // Where on the line itself the point is that is seen there.

@@ -1,7 +1,7 @@
 //! The lines and points of entities.
 
 use crate::lines::drawing::Drawing;
-use crate::lines::marks::{Hidden, Ink, Mark};
+use crate::lines::marks::{Ink, Mark};
 use crate::quantities::no_camera;
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemState;
@@ -13,7 +13,8 @@ use halfway_frame::view::matrices::normal_matrix;
 use halfway_lighting::equations::{Coefficients, Eye, Light, ShadedPoint, shade};
 use halfway_lighting::lights::{LightQueries, LightView};
 use halfway_lighting::{
-    AlphaMode, Camera, Cameras, GlobalAmbient, LineStyle, Material, Reflectance, Shading, Shown, VertexColors,
+    AlphaMode, Camera, Cameras, GlobalAmbient, Intensity, LineStyle, Material, Reflectance, Shading, Shown,
+    VertexColors,
 };
 use halfway_mesh::{Lines, Lines3d, SpawnOrder};
 
@@ -100,6 +101,8 @@ struct Lighting {
     lights: Vec<Light<f64>>,
     ambient: [f64; 3],
     eye: Eye<f64>,
+    /// The policy of the picture, whose curve what is lit has, as surfaces have it.
+    policy: Intensity,
 }
 
 impl Lighting {
@@ -119,7 +122,10 @@ impl Lighting {
         });
         match refused {
             Some(error) => Err(error),
-            None => Ok(Self { lights, ambient: ambient.copied().unwrap_or_default().ga(), eye: camera.eye() }),
+            None => {
+                let ambient = ambient.copied().unwrap_or_default().ga();
+                Ok(Self { lights, ambient, eye: camera.eye(), policy: camera.intensity })
+            }
         }
     }
 }
@@ -149,11 +155,17 @@ impl Look<'_> {
                 self.ink(eye[vertex], normal, color.clamp(Vec4::ZERO, Vec4::ONE), drawing)
             })
             .collect();
-        for ends in lines.segments() {
-            let ends = ends.map(|end| end as usize);
+        // The end of the path so far, and its length in pixels.
+        let (mut end, mut length) = (None, 0.0);
+        for &[from, to] in lines.segments() {
+            length = if end == Some(from) { length } else { 0.0 };
+            end = Some(to);
+            let ends = [from, to].map(|end| end as usize);
             let Some(placed) = drawing.placed(ends.map(|end| eye[end])) else { continue };
             let widths = placed.nearness.map(|nearness| drawing.in_pixels(self.style.line_width, nearness));
-            marks.push(Mark::line(&placed, widths, ends.map(|end| inks[end]), Hidden::Omit));
+            let line = Mark::line(&placed, widths, ends.map(|end| inks[end]), self.style.hidden.into());
+            marks.push(line.after(length));
+            length += (placed.ends[1] - placed.ends[0]).length();
         }
         for &point in lines.points() {
             let point = point as usize;
@@ -177,9 +189,9 @@ impl Look<'_> {
         let n = if n == DVec3::ZERO { -sight } else { n * -sight.dot(n).signum() };
         let surface = ShadedPoint { position: p.to_array(), normal: n.to_array() };
         let material = Coefficients::from(&self.material).tinted(color.truncate().as_dvec3().to_array());
-        let Lighting { lights, ambient, eye } = lighting;
+        let Lighting { lights, ambient, eye, policy } = lighting;
         let lit = shade(&surface, &material, lights, *ambient, eye, self.reflectance);
-        DVec3::from_array(lit).as_vec3().extend(opacity)
+        DVec3::from_array(lit.map(|channel| policy.toned(channel))).as_vec3().extend(opacity)
     }
 }
 

@@ -16,6 +16,6 @@ pub(crate) use surfaces::{no_camera, world_from_model};
 /// # Errors
 /// Those of [`Surfaces::take`].
 pub(crate) fn background_shares(world: &mut World) -> Result<Vec<f32>, RenderError> {
-    let drawn = redrawn::draw(world, redrawn::Shows::Background)?;
+    let drawn = redrawn::draw(world, redrawn::Shows::Background, redrawn::Taken::InOneFrame)?;
     Ok(drawn.pixels().map(|pixel| pixel.0[0]).collect())
 }

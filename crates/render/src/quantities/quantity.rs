@@ -1,6 +1,6 @@
 //! Pictures of quantities.
 
-use crate::quantities::redrawn::{self, Shows};
+use crate::quantities::redrawn::{self, Shows, Taken};
 use crate::quantities::surfaces::{SurfacePoint, Surfaces};
 use crate::views::{self, Views};
 use bevy_ecs::prelude::World;
@@ -11,8 +11,7 @@ use image::Rgba32FImage;
 
 /// A property of what each pixel shows. Every one is 0 where there is only background.
 ///
-/// All but [`Albedo`](Self::Albedo) and [`Coverage`](Self::Coverage) are of the surface in the middle of the pixel, as
-/// [`Surfaces`] has it.
+/// All but [averages](Self::is_average) are of the surface in the middle of the pixel, as [`Surfaces`] has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
     /// The depth along the axis of the camera, in world units.
@@ -88,6 +87,11 @@ impl Quantity {
             Self::Albedo => &["R", "G", "B"],
             Self::Coverage => &["A"],
         }
+    }
+
+    /// Whether it is an average over the samples of a pixel: the albedo and the coverage.
+    pub const fn is_average(self) -> bool {
+        matches!(self, Self::Albedo | Self::Coverage)
     }
 
     /// Its numbers in a point of a surface, as many as it has channels.
@@ -232,11 +236,11 @@ impl QuantityImage {
 fn image(world: &mut World, quantity: Quantity, surfaces: &mut Option<Surfaces>) -> Result<QuantityImage, RenderError> {
     match quantity {
         Quantity::Albedo => {
-            let drawn = redrawn::draw(world, Shows::Albedo)?;
+            let drawn = redrawn::draw(world, Shows::Albedo, Taken::All)?;
             Ok(of_picture(quantity, &drawn, |[r, g, b, _], out| out.extend([r, g, b])))
         }
         Quantity::Coverage => {
-            let drawn = redrawn::draw(world, Shows::Background)?;
+            let drawn = redrawn::draw(world, Shows::Background, Taken::All)?;
             Ok(of_picture(quantity, &drawn, |[background, ..], out| out.push(1.0 - background)))
         }
         _ => {
@@ -256,7 +260,8 @@ fn of_picture(quantity: Quantity, drawn: &Rgba32FImage, push: impl Fn([f32; 4], 
 }
 
 impl QuantityImage {
-    /// A quantity of surfaces, whichever drawer found them. Albedo and coverage, which are averages over samples, are 0.
+    /// A quantity of surfaces, whichever drawer found them. [Averages](Quantity::is_average) are not of the surface in
+    /// the middle of a pixel; they are 0 here.
     pub fn of_surfaces(quantity: Quantity, surfaces: &Surfaces) -> Self {
         let values = if quantity.is_number() {
             let number = |point: Option<SurfacePoint>| point.and_then(|point| quantity.number(&point)).unwrap_or(0);

@@ -2,6 +2,7 @@
 
 use crate::adapter::Adapter;
 use crate::headless::Headless;
+use crate::jitter;
 use crate::pending::{DrawnIn, draw_frame};
 use crate::picture::{Picture, Pixels};
 use crate::plugin::add_drawers;
@@ -17,7 +18,8 @@ use halfway_frame::error::RenderError;
 use halfway_frame::view::camera::{PictureSize, View};
 use halfway_frame::view::matrices::Visible;
 use halfway_lighting::{
-    AlphaMode, BackMaterial, Camera, Encoding, Faces, GlobalAmbient, Intensity, Material, Samples, VertexColors,
+    AlphaMode, BackMaterial, Camera, Encoding, Faces, Frequency, GlobalAmbient, Intensity, Material, Samples, Shading,
+    Terms, VertexColors,
 };
 use halfway_mesh::{Mesh, Mesh3d};
 use halfway_texture::{Channel, MapKind, Maps, SolidTexture, SurfaceMap, Texture};
@@ -33,6 +35,15 @@ pub(super) enum Shows {
     Albedo,
     /// How much of the background is seen: 1 where there is nothing.
     Background,
+}
+
+/// The samples of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Taken {
+    /// Those of the newest frame.
+    InOneFrame,
+    /// All that the camera asks for.
+    All,
 }
 
 /// The world of the copy, kept from one picture to the next, with the meshes that it was made for.
@@ -62,6 +73,7 @@ type Objects = (
     &'static GlobalTransform,
     Option<&'static Material>,
     Option<&'static BackMaterial>,
+    Option<&'static Shading>,
     Option<&'static Faces>,
     Option<&'static AlphaMode>,
     Option<&'static VertexColors>,
@@ -70,7 +82,7 @@ type Objects = (
 );
 
 /// The look of a copied object.
-type Look = (Mesh3d, Material, BackMaterial, Faces, AlphaMode, VertexColors, Maps);
+type Look = (Mesh3d, Material, BackMaterial, Shading, Faces, AlphaMode, VertexColors, Maps);
 
 /// Each of two channels holds this many values of a triangle's number: so few that rounding cannot take one for another.
 const VALUES: u32 = 4096;
@@ -86,12 +98,12 @@ const MOST_OBJECTS: u64 = 1 << 24;
 /// # Errors
 /// [`RenderError::NoPicture`] before the first frame, [`RenderError::TooLarge`] where numbers do not fit, and those of
 /// [`take_picture`](crate::take_picture).
-pub(super) fn draw(world: &mut World, shows: Shows) -> Result<Rgba32FImage, RenderError> {
+pub(super) fn draw(world: &mut World, shows: Shows, samples: Taken) -> Result<Rgba32FImage, RenderError> {
     let mut redrawn = match world.remove_resource::<Redrawn>() {
         Some(redrawn) => redrawn,
         None => Redrawn::new(),
     };
-    let picture = redrawn.draw(world, shows);
+    let picture = redrawn.draw(world, shows, samples);
     world.insert_resource(redrawn);
     picture
 }
@@ -120,15 +132,18 @@ impl Redrawn {
         Self { world, entities: Vec::new(), meshes: HashMap::default(), images: HashMap::default() }
     }
 
-    fn draw(&mut self, world: &mut World, shows: Shows) -> Result<Rgba32FImage, RenderError> {
+    fn draw(&mut self, world: &mut World, shows: Shows, samples: Taken) -> Result<Rgba32FImage, RenderError> {
         let adapter = Adapter::from_world(world).ok_or(RenderError::NoPicture)?;
         adapter.insert_into(&mut self.world);
         let size = world.get_resource::<PictureSize>().ok_or(RenderError::NoPicture)?.0;
         self.world.insert_resource(Headless { size, pixels: Pixels::Float });
         self.forget(world);
-        self.place_camera(world, shows)?;
-        self.place_objects(world, shows)?;
-        let drawn = draw_frame(&mut self.world);
+        let camera = self.place_camera(world, shows, samples)?;
+        self.place_objects(world, shows, world.get::<Shading>(camera).copied().unwrap_or_default())?;
+        let drawn = match jitter::side(&mut self.world) {
+            Some(side) => jitter::averaged(&mut self.world, side, draw_frame),
+            None => draw_frame(&mut self.world),
+        };
         for entity in self.entities.drain(..) {
             self.world.despawn(entity);
         }
@@ -150,24 +165,30 @@ impl Redrawn {
         });
     }
 
-    fn place_camera(&mut self, world: &mut World, shows: Shows) -> Result<(), RenderError> {
+    /// Copies the camera whose turn it is, and returns it.
+    fn place_camera(&mut self, world: &mut World, shows: Shows, samples: Taken) -> Result<Entity, RenderError> {
         let view = world.get_resource::<View>().ok_or(RenderError::NoPicture)?;
         let (camera, entity) = view.camera.zip(view.entity).ok_or(RenderError::NoPicture)?;
         let transform = *world.get::<GlobalTransform>(entity).ok_or(RenderError::NoCamera)?;
+        let asked = world.get::<Camera>(entity).map_or(camera.samples, |camera| camera.samples);
         let camera = Camera {
             background: if shows == Shows::Background { LinearRgba::WHITE } else { LinearRgba::BLACK },
             background_below: None,
             background_opacity: 1.0,
-            samples: if shows == Shows::Numbers { Samples::One } else { camera.samples },
+            samples: match (shows, samples) {
+                (Shows::Numbers, _) => Samples::One,
+                (_, Taken::InOneFrame) => camera.samples,
+                (_, Taken::All) => asked,
+            },
             encoding: Encoding::Raw,
             intensity: Intensity::Clamp,
             ..camera
         };
         self.spawn(camera, transform);
-        Ok(())
+        Ok(entity)
     }
 
-    fn place_objects(&mut self, world: &mut World, shows: Shows) -> Result<(), RenderError> {
+    fn place_objects(&mut self, world: &mut World, shows: Shows, of_view: Shading) -> Result<(), RenderError> {
         let visible = world.get_resource::<Visible>().cloned().unwrap_or_default().0;
         if visible.len() as u64 > MOST_OBJECTS {
             return Err(too_large("the number of objects", visible.len() as u64, MOST_OBJECTS));
@@ -175,10 +196,14 @@ impl Redrawn {
         let mut objects = world.query::<Objects>();
         for (number, &entity) in (1_u32..).zip(&visible) {
             // An object that is gone since the newest frame keeps its number, and is not seen.
-            let Ok((mesh, transform, material, back, faces, alpha, colors, maps, solid)) = objects.get(world, entity)
+            let Ok((mesh, transform, material, back, shading, faces, alpha, colors, maps, solid)) =
+                objects.get(world, entity)
             else {
                 continue;
             };
+            // A triangle that is shaded once has the mean of its corners' colours and opacities.
+            let is_flat = Terms::from(shading.copied().unwrap_or(of_view)).has(Frequency::Triangle);
+            let shading = if is_flat { Shading::Flat } else { Shading::Phong };
             let front = *material.unwrap_or(&Material::DEFAULT);
             let back = back.map_or(front, |back| back.0);
             let alpha = alpha.copied().unwrap_or_default();
@@ -199,7 +224,8 @@ impl Redrawn {
             let Some(handle) = self.mesh(world, mesh.0.id(), copy)? else { continue };
             let maps = maps.map(|maps| self.maps(world, maps, shows)).unwrap_or_default();
             let faces = faces.copied().unwrap_or_default();
-            let look: Look = (Mesh3d(handle), dressed(front), BackMaterial(dressed(back)), faces, alpha, colors, maps);
+            let sides = (dressed(front), BackMaterial(dressed(back)));
+            let look: Look = (Mesh3d(handle), sides.0, sides.1, shading, faces, alpha, colors, maps);
             let solid = solid.filter(|_| shows == Shows::Albedo).copied();
             let copied = self.spawn(look, *transform);
             if let Some(solid) = solid {

@@ -1,6 +1,6 @@
 //! The surface that each pixel shows.
 
-use crate::quantities::redrawn::{self, Shows, numbers};
+use crate::quantities::redrawn::{self, Shows, Taken, numbers};
 use crate::views::{self, Views};
 use bevy_ecs::prelude::*;
 use bevy_math::{DAffine3, DMat3, DVec2, DVec3, UVec2, Vec3A};
@@ -108,7 +108,7 @@ impl Surfaces {
     /// [`RenderError::NoPicture`] before the first frame; [`RenderError::TooLarge`] for meshes of more than 16,777,216
     /// triangles; [`RenderError::FloatTarget`] where the adapter cannot draw numbers.
     pub fn take(world: &mut World) -> Result<Self, RenderError> {
-        let picture = redrawn::draw(world, Shows::Numbers)?;
+        let picture = redrawn::draw(world, Shows::Numbers, Taken::InOneFrame)?;
         let (view, size) = (world.resource::<View>(), world.resource::<PictureSize>().0);
         let (camera, eye_from_world) = (view.camera.ok_or(RenderError::NoPicture)?, view.eye_from_world);
         let entities = world.resource::<Visible>().0.clone();

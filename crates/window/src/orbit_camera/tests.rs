@@ -10,6 +10,7 @@ use bevy_input::mouse::{MouseButtonInput, MouseMotion, MouseScrollUnit, MouseWhe
 use bevy_input::touch::TouchPhase;
 use bevy_math::Vec3;
 use bevy_time::TimeUpdateStrategy;
+use halfway_lighting::Viewport;
 use std::time::Duration;
 
 const EYE: Vec3 = Vec3::new(0.0, 0.0, 5.0);
@@ -295,4 +296,94 @@ fn taking_over_leaves_the_picture_as_it_is() {
     let camera = stage.app.world_mut().spawn((OrbitCamera::resume(&rolled, 9.0), rolled)).id();
     stage.frames(3);
     assert_eq!(*stage.app.world().get::<Transform>(camera).unwrap(), rolled);
+}
+
+/// Two cameras side by side, the right one over a third of the picture in the middle, in a picture of 900 × 720.
+struct Shared {
+    stage: Stage,
+    cameras: [Entity; 3],
+}
+
+impl Shared {
+    fn new() -> Self {
+        let mut stage = Stage::new(16);
+        let world = stage.app.world_mut();
+        world.despawn(stage.camera);
+        world.insert_resource(Pointer { at: None, picture: UVec2::new(900, 720) });
+        let viewports = [
+            Viewport::fractions([0.0, 0.0, 0.5, 1.0]),
+            Viewport::fractions([0.5, 0.0, 0.5, 0.5]),
+            Viewport::pixels([300, 0, 300, 720]).with_order(1),
+        ];
+        let orbit = || (Camera::default(), OrbitCamera::looking_at(EYE, Vec3::ZERO));
+        let cameras = viewports.map(|viewport| world.spawn((orbit(), viewport)).id());
+        stage.app.update();
+        Self { stage, cameras }
+    }
+
+    fn point(&mut self, x: f32, y: f32) -> &mut Self {
+        self.stage.app.world_mut().resource_mut::<Pointer>().at = Some(Vec2::new(x, y));
+        self
+    }
+
+    /// The yaw of each camera in eighths of a turn.
+    fn yaws(&self) -> [f32; 3] {
+        let yaw = |camera| self.stage.app.world().get::<OrbitCamera>(camera).expect("an orbit").orbit.yaw;
+        self.cameras.map(|camera| (yaw(camera) / (PI / 4.0) * 1e3).round() / 1e3)
+    }
+}
+
+#[test]
+fn of_cameras_that_share_the_picture_the_one_under_the_pointer_moves() {
+    let rows = [
+        ("the left one", [100.0, 300.0], [1.0, 0.0, 0.0]),
+        // Its part is half as high: a drag turns it twice as far.
+        ("the right one", [700.0, 100.0], [0.0, 2.0, 0.0]),
+        ("the one over both", [440.0, 300.0], [0.0, 0.0, 1.0]),
+        ("the one over both, at its edge", [300.0, 0.0], [0.0, 0.0, 1.0]),
+        ("none: the first", [700.0, 700.0], [1.0, 0.0, 0.0]),
+    ];
+    for (name, [x, y], expected) in rows {
+        let mut shared = Shared::new();
+        shared.point(x, y).stage.drag(MouseButton::Left, -180.0, 0.0);
+        assert_eq!(shared.yaws(), expected, "{name}");
+    }
+}
+
+#[test]
+fn a_drag_keeps_its_camera_until_the_button_is_released() {
+    let mut shared = Shared::new();
+    let (button, window) = (MouseButton::Left, Entity::PLACEHOLDER);
+    shared.point(100.0, 300.0).stage.send(MouseButtonInput { button, state: ButtonState::Pressed, window }).frames(1);
+    shared.point(700.0, 100.0).stage.send(MouseMotion { delta: Vec2::new(-180.0, 0.0) }).frames(1);
+    assert_eq!(shared.yaws(), [1.0, 0.0, 0.0]);
+    // The pointer moves on in the frame of the release.
+    shared.stage.send(MouseMotion { delta: Vec2::new(-180.0, 0.0) });
+    shared.stage.send(MouseButtonInput { button, state: ButtonState::Released, window }).frames(1);
+    assert_eq!(shared.yaws(), [2.0, 0.0, 0.0]);
+    shared.stage.drag(MouseButton::Left, -180.0, 0.0);
+    assert_eq!(shared.yaws(), [2.0, 2.0, 0.0]);
+}
+
+#[test]
+fn wheel_and_keys_move_the_camera_under_the_pointer_and_the_last_one_when_it_leaves() {
+    let mut shared = Shared::new();
+    let distances = |shared: &Shared| {
+        let world = shared.stage.app.world();
+        shared.cameras.map(|camera| world.get::<OrbitCamera>(camera).expect("an orbit").orbit.distance)
+    };
+    shared.point(700.0, 100.0).stage.wheel(MouseScrollUnit::Line, 3.0);
+    let nearer = 5.0 * (-0.3_f32).exp();
+    let found = distances(&shared);
+    assert!(found[0] == 5.0 && near(found[1], nearer) && found[2] == 5.0, "{found:?}");
+    shared.stage.app.world_mut().resource_mut::<Pointer>().at = None;
+    shared.stage.press(KeyCode::ArrowRight, "").frames(10).release(KeyCode::ArrowRight, "").frames(1);
+    let yaws = shared.yaws();
+    assert!(yaws[0] == 0.0 && yaws[1] > 0.0 && yaws[2] == 0.0, "{yaws:?}");
+    // A camera that is gone is not waited for.
+    let gone = shared.cameras[1];
+    shared.stage.app.world_mut().despawn(gone);
+    shared.stage.wheel(MouseScrollUnit::Line, 3.0);
+    let first = shared.stage.app.world().get::<OrbitCamera>(shared.cameras[0]).expect("an orbit").orbit.distance;
+    assert!(near(first, nearer), "{first}");
 }

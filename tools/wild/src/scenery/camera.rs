@@ -48,6 +48,34 @@ pub(super) fn camera(random: &mut Rng, unit: f64) -> Value {
     camera.into()
 }
 
+/// Parts of the picture for several cameras: usually side by side, sometimes over one another.
+pub(super) fn viewports(random: &mut Rng, [width, height]: [u64; 2]) -> Vec<Value> {
+    let [across, down] = [random.between(0.2, 0.8), random.between(0.2, 0.8)];
+    let parts = match random.u64(0..=3) {
+        0 => vec![[0.0, 0.0, across, 1.0], [across, 0.0, 1.0 - across, 1.0]],
+        1 => {
+            vec![[0.0, 0.0, 1.0, down], [0.0, down, across, 1.0 - down], [across, down, 0.9 - 0.9 * across, 1.0 - down]]
+        }
+        2 => vec![[0.0, 0.0, 1.0, 1.0], [0.5 * across, 0.5 * down, 0.5, 0.5]],
+        _ => vec![[0.0, 0.0, 0.5, 0.5], [0.5, 0.0, 0.5, 0.5], [0.0, 0.5, 0.5, 0.5], [0.5, 0.5, 0.5, 0.5]],
+    };
+    let viewport = |part: [f64; 4]| {
+        let mut viewport = Object::new();
+        if random.percent(60) {
+            // Rounded down, so that a part ends within the picture.
+            viewport.set("fractions", part.map(|share| (share * 1e3).floor() / 1e3).to_vec().into());
+        } else {
+            let [left, top, wide, high] = part;
+            let pixels = [(left, width), (top, height), (wide, width), (high, height)];
+            viewport.set("pixels", pixels.map(|(share, side)| (share * side as f64).floor() as u64).to_vec().into());
+        }
+        viewport.perhaps(random, 40, "order", |random| random.u64(0..=3).into());
+        viewport.perhaps(random, 40, "load", |random| random.choose(&["clear", "clear", "keep"]).into());
+        viewport.into()
+    };
+    parts.into_iter().map(viewport).collect()
+}
+
 /// Usually in the middle, with square pixels.
 fn film(random: &mut Rng, camera: &mut Object) {
     camera.perhaps(random, 20, "shift", |random| shorts([random.between(-0.6, 0.6), random.between(-0.6, 0.6)]));

@@ -179,16 +179,14 @@ impl PlyContent {
 
     fn faces(&mut self, element: &Element, values: &mut Values) -> Result<(), LoadError> {
         self.lists(element, values, |shape, values, place| {
-            for &corner in &shape.corners {
-                let Some(p) = shape.positions.get(corner as usize) else {
-                    return Err(outside(values, place, corner, shape.positions.len()));
-                };
-                shape.points.push(*p);
+            if let Some(&corner) = shape.corners.iter().find(|&&corner| corner as usize >= shape.positions.len()) {
+                return Err(outside(values, place, corner, shape.positions.len()));
             }
             match &shape.corners[..] {
                 &[a, b, c] => shape.indices.extend([a, b, c]),
                 [] | [_] | [_, _] => shape.small += 1,
                 corners => {
+                    shape.points.extend(corners.iter().map(|&corner| shape.positions[corner as usize]));
                     let indices = &mut shape.indices;
                     let clean = polygon::cut(&shape.points, |triangle| {
                         indices.extend(triangle.map(|i| corners[i as usize]));
@@ -358,6 +356,7 @@ fn outside(values: &Values, place: ElementProperty, corner: u32, vertices: usize
     )
 }
 
+#[inline]
 fn length_of(length: header::Scalar, place: ElementProperty, values: &mut Values) -> Result<u64, LoadError> {
     let found = values.next(length, place)?;
     if found < 0.0 {

@@ -48,7 +48,7 @@ impl Oracle {
     ///
     /// For [`Mode::Mesh`](super::Mode::Mesh). Surfaces that are drawn by their formula are not supported here.
     pub fn possible(&self, x: u32, y: u32, radius: f64) -> Possible {
-        let policy = self.scene.intensity;
+        let policy = self.policy();
         // The curves are monotonic, so that they map the ends of a range to its ends.
         self.drawn_there(x, y, radius).mapped(|channel| policy.toned(channel))
     }
@@ -63,11 +63,11 @@ impl Oracle {
         match self.samples() {
             Samples::One => {
                 let shading = [&Zone::disc(centre, radius)];
-                self.stack(centre, radius, &shading).possible(&self.scene, behind, self.clamp)
+                self.stack(centre, radius, &shading).possible(&self.scene, behind, self.clamps())
             }
             Samples::Four | Samples::Sixteen | Samples::SixtyFour => {
                 let shading = [&Zone::disc(centre, radius), &Zone::square(centre, 0.5 + radius)];
-                let at = |at: DVec2| self.stack(at, radius, &shading).possible(&self.scene, behind, self.clamp);
+                let at = |at: DVec2| self.stack(at, radius, &shading).possible(&self.scene, behind, self.clamps());
                 let samples = FOUR.map(|sample| at(corner + DVec2::from_array(sample)));
                 // The oracle's own picture shows the centre, where something may lie that no sample hits.
                 let centre = at(centre);
