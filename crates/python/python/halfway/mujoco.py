@@ -7,10 +7,10 @@
         renderer.update_scene(data, camera="track")
         pixels = renderer.render()
 
-Methods, arguments and results are those of `mujoco.Renderer`; all other names are the package mujoco's own. MuJoCo itself says which geoms are seen, where, and in which
-colours; halfway draws them by the equations of MuJoCo's classic renderer: Gouraud shading, Blinn–Phong highlights, lights
-with ambient, diffuse and specular parts, cones and attenuation, colours that are not encoded. Off edges the colours of
-shapes of one colour are within a few steps of 255.
+Methods, arguments and results are those of `mujoco.Renderer`; all other names are the package mujoco's own. MuJoCo itself says
+which geoms are seen, where, and in which colours; halfway draws them by the equations of MuJoCo's classic renderer: Gouraud
+shading, Blinn–Phong highlights, lights with ambient, diffuse and specular parts, cones and attenuation, colours that are not
+encoded. Segments are MuJoCo's; off edges the colours of shapes of one colour are within a few steps of 255.
 
 These are left out:
 
@@ -18,13 +18,14 @@ These are left out:
 - the skybox: the background has the mean of its colours; without one it is black;
 - textures of type cube, which become the mean of their colours; textures of type 2d are drawn on planes, height fields and
   on meshes with texture coordinates;
-- flexes, skins, lines and labels, with a warning; lights of type image;
+- flexes, skins, lines and labels, and lights of type image;
 - the far plane of perspective cameras: what lies beyond is drawn;
 - the flags of `renderer.scene`.
 
-Light above 1 at a corner or on a texture is held to 1 there by MuJoCo, by halfway in the picture. An orthographic camera
-sees highlights along its axis. Planes are lit at each pixel, MuJoCo's at the corners of their grid, which of a plane without end are far apart. Where shapes meet at one depth, the one that is seen may
-be another.
+Light above 1 at a corner or on a texture is held to 1 there by MuJoCo, by halfway in the picture: under strong lights its
+textures are brighter. An orthographic camera sees highlights along its axis. Planes are lit at each pixel, MuJoCo's at the
+corners of their grid, which of a plane without end are far apart. Where shapes meet at one depth, the one that is seen may be
+another.
 """
 
 from __future__ import annotations
@@ -382,6 +383,11 @@ class Renderer:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+    def __del__(self) -> None:
+        # Where a check of the arguments has failed, there is nothing to close.
+        if hasattr(self, "_is_closed"):
+            self.close()
 
     # From MuJoCo's scene to halfway's.
 

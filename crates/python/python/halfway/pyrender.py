@@ -985,6 +985,11 @@ class OffscreenRenderer:
         self._kept.clear()
         self._images.clear()
 
+    def __del__(self) -> None:
+        # Where the size was wrong, there is nothing to free.
+        if hasattr(self, "_images"):
+            self.delete()
+
 
 def _parts(scene: Scene) -> Iterator[tuple[Node, Primitive, Array]]:
     """All that is drawn, with its node and its place."""
