@@ -66,7 +66,7 @@ fn large_meshes_are_cut_when_they_are_drawn_again() {
             things.iter().cloned().fold(scene, Scene::with)
         };
         let mut stage = stage_on("cpu");
-        let first = stage.draw(&scene(&[ball.clone()]));
+        let first = stage.draw(&scene(std::slice::from_ref(&ball)));
         let FrameReport { patches, triangles, .. } = *stage.report();
         assert_eq!((patches, triangles), (0, 16_128), "{shading:?}: it is whole");
         let second = stage.float();

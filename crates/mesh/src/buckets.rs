@@ -56,7 +56,9 @@ impl Buckets {
                 first = end as usize;
             }
         }
-        parts.push(first..self.things.len());
+        if first < self.things.len() {
+            parts.push(first..self.things.len());
+        }
         parts
     }
 
@@ -117,7 +119,7 @@ mod tests {
             expected.sort_by_key(|&thing| (bucket(thing), key(thing), thing));
             assert_eq!(sorted.things(), expected, "{count} in {buckets}");
             let parts = sorted.parts();
-            assert_eq!(parts.iter().map(|part| part.len()).sum::<usize>(), expected.len());
+            assert_eq!(parts.iter().map(ExactSizeIterator::len).sum::<usize>(), expected.len());
             for part in parts.windows(2) {
                 let [before, after] = [part[0].end - 1, part[1].start].map(|at| bucket(expected[at]));
                 assert!(part[0].end == part[1].start && before != after, "a bucket is in one part");

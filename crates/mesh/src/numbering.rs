@@ -165,6 +165,22 @@ mod tests {
     }
 
     #[test]
+    fn positions_in_buckets_are_numbered_as_others() {
+        let mut seed = 7_u32;
+        let mut random = |most: u32| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) % most
+        };
+        let mut coordinate = |most: u32| random(most) as f32 - 0.5 * most as f32;
+        let positions: Vec<Vec3> =
+            (0..50_000).map(|_| Vec3::new(coordinate(60), -coordinate(50), coordinate(10))).collect();
+        let found = Numbering::from_positions(&positions);
+        let expected = Numbering::new(positions.len(), |i| position_key(positions[i]));
+        assert!(found.count() > 10_000 && !found.are_distinct());
+        assert_eq!((found.numbers, found.firsts), (expected.numbers, expected.firsts));
+    }
+
+    #[test]
     fn incremental_numbering_agrees_with_batch_numbering() {
         let key = |i: u32| [i, i / 7, i.wrapping_mul(1 << 20)];
         let mut distinct = DistinctKeys::default();
