@@ -2,6 +2,8 @@
 
 from importlib.metadata import entry_points
 
+from importlib.metadata import entry_points
+
 import numpy as np
 import pytest
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -191,14 +192,16 @@ def _of_object(source: Any) -> Iterator[Placed]:
         yield Placed(Mesh.read(source), None, {})
     elif hasattr(source, "geometry") and hasattr(source, "graph"):
         yield from _of_trimesh_scene(source)
-    elif hasattr(source, "extract_surface") or hasattr(source, "n_faces_strict"):
+    elif hasattr(source, "extract_surface"):
         yield _of_pyvista(source)
     elif hasattr(source, "points") and hasattr(source, "cells"):
         yield _of_meshio(source)
-    elif hasattr(source, "vertices") and hasattr(source, "triangles"):
-        yield _of_open3d(source)
     elif hasattr(source, "vertices") and hasattr(source, "faces"):
         yield _of_trimesh(source)
+    elif hasattr(source, "to_legacy") and hasattr(source, "triangle"):
+        yield _of_open3d(source.to_legacy())
+    elif hasattr(source, "vertices") and hasattr(source, "triangles"):
+        yield _of_open3d(source)
     else:
         kind = type(source).__name__
         raise TypeError(f"mesh: {kind}; expected vertices and faces, a path, a halfway.Mesh, or a mesh of trimesh, "
@@ -210,6 +213,10 @@ def _of_trimesh_scene(scene: Any) -> Iterator[Placed]:
     for node in scene.graph.nodes_geometry:
         pose, name = scene.graph[node]
         if not hasattr(scene.geometry[name], "faces"):
+            from ._scene import SceneWarning
+
+            kind = type(scene.geometry[name]).__name__
+            warnings.warn(f"{name!r} of the scene, a {kind} without faces, is not shown", SceneWarning, stacklevel=2)
             continue
         if name not in made:
             made[name] = _of_trimesh(scene.geometry[name])
@@ -225,40 +232,143 @@ def _of_trimesh(mesh: Any) -> Placed:
         given["colors"] = np.asarray(visual.vertex_colors)
     elif kind == "face":
         given["face_colors"] = np.asarray(visual.face_colors)
-    elif kind == "texture" and getattr(visual, "uv", None) is not None:
+    elif kind == "texture":
         material = visual.material
         image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
-        factor = getattr(material, "baseColorFactor", None)
-        if image is not None:
+        if image is not None and visual.uv is not None:
             given["uvs"], given["image"] = np.asarray(visual.uv), np.asarray(image.convert("RGBA"))[..., :3]
-        elif (color := factor if factor is not None else getattr(material, "diffuse", None)) is not None:
-            color = np.asarray(color)
-            color = color if color.dtype == np.uint8 else np.asarray(color, np.float32)
-            keys["material"] = finish(linear_colors(color[None, :], "color")[0, :3].tolist())
+        else:
+            keys = _of_trimesh_material(material)
     return Placed(Mesh(mesh.vertices, mesh.faces, **given), None, keys)
 
 
+def _of_trimesh_material(material: Any) -> dict[str, Any]:
+    """The keys of an object of this material. Bytes are sRGB, as trimesh shows them; factors of glTF are linear, though
+    trimesh keeps them as bytes."""
+    keys: dict[str, Any] = {}
+    if hasattr(material, "baseColorFactor"):
+        base = _unit(material.baseColorFactor, (1.0, 1.0, 1.0, 1.0))
+        metallic, roughness = (1.0 if value is None else float(value) for value in
+                               (material.metallicFactor, material.roughnessFactor))
+        keys["material"] = metallic_roughness(base, metallic, roughness, _unit(material.emissiveFactor, (0.0, 0.0, 0.0)))
+        if getattr(material, "doubleSided", False):
+            keys["faces"] = "both"
+        if material.alphaMode == "BLEND":
+            keys |= {"blend": True, "material": keys["material"] | {"opacity": float(base[3])}}
+    elif getattr(material, "diffuse", None) is not None:
+        color = np.asarray(material.diffuse)
+        color = color if color.dtype == np.uint8 else np.asarray(color, np.float32)
+        keys["material"] = finish(linear_colors(color[None, :], "color")[0, :3].tolist())
+    return keys
+
+
+def _unit(color: Any, default: tuple[float, ...]) -> npt.NDArray[Any]:
+    """A colour as numbers from 0 to 1, with as many as the default has."""
+    if color is None:
+        return np.array(default)
+    values = np.asarray(color)
+    values = values / 255.0 if values.dtype.kind in "iu" else values.astype(float)
+    return np.concatenate([values, default[len(values):]])[:len(default)]
+
+
+def metallic_roughness(base: npt.NDArray[Any], metallic: float, roughness: float,
+                       emission: npt.NDArray[Any]) -> dict[str, Any]:
+    """The classic material that looks about like a metallic-roughness one, as halfway reads glTF."""
+    color = np.clip(base[:3], 0, 1)
+    alpha = max(min(max(roughness, 0.0), 1.0) ** 2, 1e-6)
+    shininess = float(np.clip(2 / (alpha * alpha) - 2, 1, 10_000))
+    f0 = 0.04 + (color - 0.04) * metallic
+    largest = float(f0.max())
+    peak = max(min((shininess + 8) / 8, 1 / largest), 1.0) if largest > 0 else 1.0
+    return {"ambient": color.tolist(), "diffuse": (color * (1 - metallic)).tolist(), "specular": (f0 * peak).tolist(),
+            "emission": np.clip(emission, 0, None).tolist(), "shininess": shininess}
+
+
 def _of_pyvista(mesh: Any) -> Placed:
-    surface = mesh if hasattr(mesh, "n_faces_strict") else mesh.extract_surface()
+    surface = mesh
+    if not hasattr(type(mesh), "strips"):
+        with warnings.catch_warnings():
+            # Of defaults that are to change.
+            warnings.simplefilter("ignore")
+            surface = mesh.extract_surface()
     surface = surface.triangulate()
     faces = np.asarray(surface.faces).reshape(-1, 4)[:, 1:]
-    numbers = {}
-    for data in (surface.cell_data, surface.point_data):
-        numbers.update({key: np.asarray(data[key]) for key in data.keys() if np.asarray(data[key]).ndim == 1})
-    return Placed(Mesh(surface.points, faces, properties=numbers), None, {})
+    if not len(faces):
+        raise ValueError("mesh: a pyvista mesh without faces; expected at least one")
+    given: dict[str, Any] = {}
+    numbers: dict[str, Any] = {}
+    for is_of_faces, data in ((True, surface.cell_data), (False, surface.point_data)):
+        for key in data.keys():
+            values = np.asarray(data[key])
+            if values.ndim == 1:
+                numbers[key] = values
+            elif values.dtype == np.uint8 and values.shape[1] in (3, 4) and key == surface.active_scalars_name:
+                given["face_colors" if is_of_faces else "colors"] = values
+    if "face_colors" in given:
+        given.pop("colors", None)
+    # pyvista shows both sides.
+    return Placed(Mesh(surface.points, faces, properties=numbers, **given), None, {"faces": "both"})
+
+
+CORNERS = {"triangle": 3, "quad": 4, "tetra": 4, "pyramid": 5, "wedge": 6, "hexahedron": 8}
+"""The kinds of meshio's cells that have a surface, and how many of their points are corners; the rest are on their edges."""
+
+SIDES: dict[str, tuple[tuple[int, ...], ...]] = {
+    "triangle": ((0, 1, 2),),
+    "quad": ((0, 1, 2, 3),),
+    "tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
+    "pyramid": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
+    "wedge": ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+    "hexahedron": ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
+}
 
 
 def _of_meshio(mesh: Any) -> Placed:
-    kept = [np.asarray(block.data) for block in mesh.cells if block.type in ("triangle", "quad")]
-    if not kept:
-        kinds = ", ".join(sorted({block.type for block in mesh.cells})) or "no cells"
-        raise ValueError(f"mesh: {kinds}; expected cells of triangles or quadrilaterals")
-    cut = [triangles(block, len(mesh.points))[0] for block in kept]
+    """Its triangles and quadrilaterals, and the sides of solid cells that no two share."""
     points = np.asarray(mesh.points)
     if points.ndim == 2 and points.shape[1] == 2:
         points = np.c_[points, np.zeros(len(points))]
-    numbers = {key: values for key, values in mesh.point_data.items() if np.asarray(values).ndim == 1}
-    return Placed(Mesh(points, np.concatenate(cut), properties=numbers), None, {})
+    # The number of the cell, counted over all blocks, is kept for what is said of cells.
+    flat: list[tuple[Indices, Any]] = []
+    solid: list[tuple[npt.NDArray[Any], Any]] = []
+    first = 0
+    for block in mesh.cells:
+        kind, cells = block.type.rstrip("0123456789"), np.asarray(block.data)
+        own = np.arange(first, first + len(cells))
+        first += len(cells)
+        if kind not in CORNERS or not len(cells):
+            continue
+        if kind in ("triangle", "quad"):
+            indices, of_face = triangles(cells[:, :CORNERS[kind]], len(points))
+            flat.append((indices, own if of_face is None else own[of_face]))
+        else:
+            solid += [(cells[:, list(side)], own) for side in SIDES[kind]]
+    for sides, own in _outside(solid):
+        indices, of_face = triangles(sides, len(points))
+        flat.append((indices, own if of_face is None else own[of_face]))
+    if not flat:
+        kinds = ", ".join(sorted({block.type for block in mesh.cells})) or "no cells"
+        raise ValueError(f"mesh: {kinds}; expected cells of {', '.join(CORNERS)}")
+    faces, of_cell = (np.concatenate([part[i] for part in flat]) for i in (0, 1))
+    numbers: dict[str, Any] = {}
+    for key, blocks in mesh.cell_data.items():
+        values = [np.asarray(block) for block in blocks]
+        if all(block.ndim == 1 for block in values):
+            numbers[key] = np.concatenate(values)[of_cell]
+    numbers |= {key: values for key, values in mesh.point_data.items() if np.asarray(values).ndim == 1}
+    return Placed(Mesh(points, faces, properties=numbers), None, {"faces": "both"})
+
+
+def _outside(sides: list[tuple[npt.NDArray[Any], Any]]) -> Iterator[tuple[npt.NDArray[Any], Any]]:
+    """The sides of solid cells that belong to one cell only."""
+    for corners in (3, 4):
+        of_this = [(side, own) for side, own in sides if side.shape[1] == corners]
+        if of_this:
+            all_sides, owners = (np.concatenate([part[i] for part in of_this]) for i in (0, 1))
+            _, places, counts = np.unique(np.sort(all_sides, axis=1), axis=0, return_index=True, return_counts=True)
+            kept = np.sort(places[counts == 1])
+            if len(kept):
+                yield all_sides[kept], owners[kept]
 
 
 def _of_open3d(mesh: Any) -> Placed:
@@ -274,7 +384,8 @@ def _of_open3d(mesh: Any) -> Placed:
     if len(uvs) == faces.size and images and np.asarray(images[0]).size:
         corners = faces.reshape(-1)
         given = {key: values[corners] for key, values in given.items() if key == "normals"}
-        given |= {"uvs": uvs, "image": np.asarray(images[0])}
+        # The first row of Open3D's images is the lowest.
+        given |= {"uvs": uvs, "image": np.asarray(images[0])[::-1]}
         vertices, faces = vertices[corners], np.arange(faces.size).reshape(-1, 3)
     return Placed(Mesh(vertices, faces, **given), None, {})
 

@@ -7,10 +7,10 @@
         renderer.update_scene(data, camera="track")
         pixels = renderer.render()
 
-Methods, arguments and results are those of `mujoco.Renderer`; all other names are the package mujoco's own. MuJoCo itself says which geoms are seen, where, and in which
-colours; halfway draws them by the equations of MuJoCo's classic renderer: Gouraud shading, Blinn–Phong highlights, lights
-with ambient, diffuse and specular parts, cones and attenuation, colours that are not encoded. Off edges the colours of
-shapes of one colour are within a few steps of 255.
+Methods, arguments and results are those of `mujoco.Renderer`; all other names are the package mujoco's own. MuJoCo itself says
+which geoms are seen, where, and in which colours; halfway draws them by the equations of MuJoCo's classic renderer: Gouraud
+shading, Blinn–Phong highlights, lights with ambient, diffuse and specular parts, cones and attenuation, colours that are not
+encoded. Segments are MuJoCo's; off edges the colours of shapes of one colour are within a few steps of 255.
 
 These are left out:
 
@@ -18,13 +18,14 @@ These are left out:
 - the skybox: the background has the mean of its colours; without one it is black;
 - textures of type cube, which become the mean of their colours; textures of type 2d are drawn on planes, height fields and
   on meshes with texture coordinates;
-- flexes, skins, lines and labels, with a warning; lights of type image;
+- flexes, skins, lines and labels, and lights of type image;
 - the far plane of perspective cameras: what lies beyond is drawn;
 - the flags of `renderer.scene`.
 
-Light above 1 at a corner or on a texture is held to 1 there by MuJoCo, by halfway in the picture. An orthographic camera
-sees highlights along its axis. Planes are lit at each pixel, MuJoCo's at the corners of their grid, which of a plane without end are far apart. Where shapes meet at one depth, the one that is seen may
-be another.
+Light above 1 at a corner or on a texture is held to 1 there by MuJoCo, by halfway in the picture: under strong lights its
+textures are brighter. An orthographic camera sees highlights along its axis. Planes are lit at each pixel, MuJoCo's at the
+corners of their grid, which of a plane without end are far apart. Where shapes meet at one depth, the one that is seen may be
+another.
 """
 
 from __future__ import annotations
@@ -52,7 +53,10 @@ PLANE, HFIELD, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH, SDF, ARROW, ARRO
     int(getattr(mujoco.mjtGeom, f"mjGEOM_{name}")) for name in
     ("PLANE", "HFIELD", "SPHERE", "CAPSULE", "ELLIPSOID", "CYLINDER", "BOX", "MESH", "SDF", "ARROW", "ARROW1", "ARROW2",
      "TRIANGLE", "LABEL", "NONE"))
-SCALED = (SPHERE, ELLIPSOID, BOX, CYLINDER)
+TUBE, UPPER_CAP, LOWER_CAP = -1, -2, -3
+"""The parts of a capsule of another length in each picture, as a tendon has it: parts are moved, where a shape would be made."""
+SCALED = (SPHERE, ELLIPSOID, BOX, CYLINDER, TUBE, UPPER_CAP, LOWER_CAP)
+OBJ_GEOM = int(mujoco.mjtObj.mjOBJ_GEOM)
 ARROWS = (ARROW, ARROW1, ARROW2)
 DRAWN = {PLANE, HFIELD, CAPSULE, MESH, SDF, TRIANGLE, *SCALED, *ARROWS}
 FLOATS = 23
@@ -111,12 +115,17 @@ def _cylinder(slices: int, stacks: int) -> Shape:
     return _joined(_side(1, 1, slices, stacks), _disc(1, 1, slices, stacks), _disc(-1, 1, slices, stacks))
 
 
-def _capsule(radius: float, half: float, slices: int, stacks: int) -> Shape:
+def _cap(side: int, slices: int, stacks: int) -> Shape:
+    """Half of a sphere, above or below."""
     elevation = np.linspace(0, np.pi / 2, max(stacks // 2, 1) + 1)
     r, z = np.cos(elevation), np.sin(elevation)
-    above = _rounds(radius * r, half + radius * z, r, z, slices)
-    below = _rounds(radius * r[::-1], -half - radius * z[::-1], r[::-1], -z[::-1], slices)
-    return _joined(below, _side(radius, half, slices, stacks), above)
+    return _rounds(r, z, r, z, slices) if side > 0 else _rounds(r[::-1], -z[::-1], r[::-1], -z[::-1], slices)
+
+
+def _capsule(radius: float, half: float, slices: int, stacks: int) -> Shape:
+    above, below = _cap(1, slices, stacks), _cap(-1, slices, stacks)
+    return _joined((below[0] * radius - [0, 0, half], *below[1:]), _side(radius, half, slices, stacks),
+                   (above[0] * radius + [0, 0, half], *above[1:]))
 
 
 def _arrow(radius: float, size: float, kind: int, slices: int, stacks: int) -> Shape:
@@ -259,7 +268,7 @@ class Renderer:
         self._model, self._height, self._width = model, int(height), int(width)
         self._visible = mujoco.MjvScene(model=model, maxgeom=max_geom)
         self._scene_option = mujoco.MjvOption()
-        self._meshes: dict[Any, Mesh | None] = {}
+        self._meshes: dict[Any, Mesh] = {}
         self._folder: tempfile.TemporaryDirectory[str] | None = None
         self._images: dict[int, str] = {}
         self._warned: set[str] = set()
@@ -383,6 +392,11 @@ class Renderer:
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    def __del__(self) -> None:
+        # Where a check of the arguments has failed, there is nothing to close.
+        if hasattr(self, "_is_closed"):
+            self.close()
+
     # From MuJoCo's scene to halfway's.
 
     def _warn(self, sentence: str) -> None:
@@ -411,9 +425,14 @@ class Renderer:
                 if kind not in (LABEL, NONE):
                     self._warn(f"{mujoco.mjtGeom(kind).name} is not drawn by halfway.mujoco")
                 continue
-            drawn.append(index)
-            keys.append((kind, geom.dataid, geom.matid))
-            scaled.append(kind in SCALED)
+            if kind in (MESH, SDF) and geom.dataid < 0:
+                self._warn("a geom without its mesh is not drawn by halfway.mujoco")
+                continue
+            parts = (TUBE, UPPER_CAP, LOWER_CAP) if kind == CAPSULE and geom.objtype != OBJ_GEOM else (kind,)
+            for part in parts:
+                drawn.append(index)
+                keys.append((part, geom.dataid, geom.matid))
+                scaled.append(part in SCALED)
         rows = floats if len(drawn) == count else floats[drawn]
         camera, lights = self._seen_from(), self._lit_by()
         # All that the drawing is made for; the rest is moved.
@@ -423,11 +442,18 @@ class Renderer:
                   camera.keys())
         poses = np.zeros((len(drawn), 4, 4), np.float32)
         poses[:, :3, :3] = rows[:, 6:15].reshape(-1, 3, 3)
-        poses[is_scaled, :3, :3] *= np.maximum(rows[is_scaled, None, :3], 1e-12)
         poses[:, :3, 3], poses[:, 3, 3] = rows[:, 3:6], 1
+        if len(drawn) != len(set(drawn)):
+            rows = rows.copy()
+            for number, (part, _, _) in enumerate(keys):
+                if part in (UPPER_CAP, LOWER_CAP):
+                    end = rows[number, 2] if part == UPPER_CAP else -rows[number, 2]
+                    poses[number, :3, 3] += end * poses[number, :3, 2]
+                    rows[number, 2] = rows[number, 0]
+        poses[is_scaled, :3, :3] *= np.maximum(rows[is_scaled, None, :3], 1e-12)
         self._drawn = drawn
         if self._scene is None or recipe != self._recipe:
-            self._scene = self._made(drawn, rows, poses, camera, lights)
+            self._scene = self._made(drawn, [key[0] for key in keys], rows, poses, camera, lights)
             self._objects = self._scene.objects
         else:
             moved = np.flatnonzero((self._poses != poses).any(axis=(1, 2)))
@@ -442,23 +468,17 @@ class Renderer:
         self._recipe, self._poses, self._camera, self._lights = recipe, poses, camera, lights
         return self._scene
 
-    def _made(self, drawn: list[int], rows: Array, poses: Array, camera: dict[str, Any],
+    def _made(self, drawn: list[int], kinds: list[int], rows: Array, poses: Array, camera: dict[str, Any],
               lights: list[dict[str, Any]]) -> Scene:
         scene = Scene({
             "output": "raw", "background": self._background(), "ambient": [0, 0, 0], "shading": "gouraud",
             "viewer": "local", "samples": 4 if self._model.vis.quality.offsamples >= 4 else 1,
             "camera": camera, "lights": lights, "objects": [],
         })
-        kept = []
-        for index, row, pose in zip(drawn, rows, poses):
+        for index, kind, row, pose in zip(drawn, kinds, rows, poses):
             geom = self._geom(index)
             texture = self._texture_of(geom)
-            mesh = self._mesh_of(geom, row[:3], texture)
-            if mesh is None:
-                continue
-            kept.append(index)
-            scene.add(mesh, pose=pose, **self._object_keys(geom, row, texture))
-        self._drawn = kept
+            scene.add(self._mesh_of(geom, kind, row[:3], texture), pose=pose, **self._object_keys(geom, row, texture))
         return scene
 
     def _background(self) -> list[float]:
@@ -478,14 +498,17 @@ class Renderer:
         of_material = np.asarray(self._model.mat_texid[geom.matid]).reshape(-1)
         return int(of_material[mujoco.mjtTextureRole.mjTEXROLE_RGB] if len(of_material) > 1 else of_material[0])
 
-    def _mesh_of(self, geom: Any, size: Array, texture: int) -> Mesh | None:
-        kind, model, quality = int(geom.type), self._model, self._model.vis.quality
+    def _mesh_of(self, geom: Any, kind: int, size: Array, texture: int) -> Mesh:
+        model, quality = self._model, self._model.vis.quality
         slices, stacks, quads = (max(int(n), 2) for n in (quality.numslices, quality.numstacks, quality.numquads))
         slices = max(slices, 3)
         own_size = () if kind in SCALED else tuple(float(v) for v in size)
         key = (kind, int(geom.dataid), own_size, texture, int(geom.matid))
         if key in self._meshes:
             return self._meshes[key]
+        if len(self._meshes) >= 512:
+            # Arrows have another length in each picture.
+            self._meshes.clear()
         if kind in (SPHERE, ELLIPSOID):
             shape = _sphere(slices, stacks)
         elif kind == BOX:
@@ -504,12 +527,12 @@ class Renderer:
             shape = _plane((own_size[0] or far, own_size[1] or far))
         elif kind == HFIELD:
             shape = _height_field(model, int(geom.dataid))
-        elif geom.dataid >= 0:
-            shape = (_hull if geom.dataid % 2 else _mesh)(model, int(geom.dataid) // 2)
+        elif kind == TUBE:
+            shape = _side(1, 1, slices, stacks)
+        elif kind in (UPPER_CAP, LOWER_CAP):
+            shape = _cap(1 if kind == UPPER_CAP else -1, slices, stacks)
         else:
-            self._warn(f"a geom without its mesh is not drawn: {geom}")
-            self._meshes[key] = None
-            return None
+            shape = (_hull if geom.dataid % 2 else _mesh)(model, int(geom.dataid) // 2)
         vertices, faces, normals, uvs = shape
         if uvs is None and texture >= 0 and kind in (PLANE, HFIELD):
             uvs = self._plane_uvs(geom, vertices, own_size)

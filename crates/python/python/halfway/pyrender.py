@@ -12,8 +12,8 @@ Names, arguments and results are pyrender's. Silhouettes, depth and segmentation
 These differ:
 
 - Materials are classic ones that look about like pyrender's metallic-roughness ones: a Blinn–Phong highlight as wide and,
-  seen from its middle, as bright as pyrender's; no Fresnel term, no masking term. Meshes with an image have a fixed, weak highlight, as the metallic and roughness factors then have
-  no place; normal, occlusion, emissive and metallic-roughness textures are left out, with a warning.
+  seen from its middle, as bright as pyrender's; no Fresnel term, no masking term. A metallicRoughnessTexture is left out,
+  with a warning.
 - There are no shadows: SHADOWS_DIRECTIONAL, SHADOWS_POINT and SHADOWS_SPOT warn once.
 - All lights of a scene light every mesh; pyrender takes the nearest four of each kind.
 - Colours are encoded by the sRGB curve, not by a power of 1/2.2: up to 8 steps of 255 in dark colours. Vertex colours
@@ -25,6 +25,9 @@ These differ:
 
 from __future__ import annotations
 
+import hashlib
+import os
+import tempfile
 import warnings
 import weakref
 from collections.abc import Iterable, Iterator, Mapping
@@ -36,6 +39,7 @@ import numpy.typing as npt
 from ._arguments import matrix
 from ._mesh import Mesh as DrawnMesh
 from ._parts import placed_by
+from ._picture import Picture
 from ._scene import Scene as DrawnScene
 from ._scene import SceneWarning
 
@@ -304,16 +308,46 @@ def _default_material(color: Any) -> MetallicRoughnessMaterial:
     return MetallicRoughnessMaterial(alphaMode="BLEND", baseColorFactor=color, metallicFactor=0.2, roughnessFactor=0.8)
 
 
-def _image(texture: Any) -> Array | None:
+class _Images:
+    """The images of materials as files, which scenes name."""
+
+    def __init__(self) -> None:
+        self._folder: tempfile.TemporaryDirectory[str] | None = None
+        self._known: dict[int, tuple[Any, str]] = {}
+
+    def file(self, texture: Any) -> str:
+        """The file of an image, named for its contents."""
+        known = self._known.get(id(texture))
+        if known is not None and known[0] is texture and not isinstance(texture, np.ndarray):
+            return known[1]
+        picture = Picture(_image(texture))
+        if self._folder is None:
+            self._folder = tempfile.TemporaryDirectory(prefix="halfway-pyrender-")
+        name = hashlib.sha256(f"{picture.shape}".encode() + np.asarray(picture).tobytes()).hexdigest()
+        path = os.path.join(self._folder.name, f"{name}.png")
+        if not os.path.exists(path):
+            picture.save(path)
+        self._known[id(texture)] = texture, path
+        return path
+
+    def clear(self) -> None:
+        """Removes the files."""
+        self._known.clear()
+        if self._folder is not None:
+            self._folder.cleanup()
+            self._folder = None
+
+
+def _image(texture: Any) -> Array:
     """The bytes of a texture: an array, an image of Pillow, or what holds one as `source`."""
     source = getattr(texture, "source", texture)
-    if source is None:
-        return None
     if hasattr(source, "convert"):
         source = source.convert("RGBA")
     array = np.asarray(source)
     if array.dtype.kind == "f":
         array = np.round(np.clip(array, 0, 1) * 255).astype(np.uint8)
+    if array.ndim == 3 and array.shape[2] in (1, 2):
+        array = np.repeat(array[..., :1], 3, axis=2)
     return array.astype(np.uint8, copy=False)
 
 
@@ -341,7 +375,7 @@ class Primitive:
         self.material = material if material is not None else MetallicRoughnessMaterial()
         self.poses = None if poses is None else np.array(poses, np.float32).reshape(-1, 4, 4)
         self.mode = GLTF.TRIANGLES
-        self._made: dict[bool, tuple[Any, DrawnMesh]] = {}
+        self._made: dict[bool, DrawnMesh] = {}
 
     @property
     def bounds(self) -> Array:
@@ -357,52 +391,57 @@ class Primitive:
         material = self.material
         if material.alphaMode != "BLEND":
             return False
+        texture = getattr(material, "baseColorTexture", None)
+        if texture is not None and self.texcoord_0 is not None:
+            image = _image(texture)
+            if image.ndim == 3 and image.shape[2] == 4 and (image[..., 3] < 255).any():
+                return True
         is_clear = isinstance(material, MetallicRoughnessMaterial) and material.baseColorFactor[3] < 1
         return bool(is_clear or (self.color_0 is not None and (self.color_0[:, 3] < 1).any()))
 
     def _drawn(self, flat: bool) -> DrawnMesh:
         """The mesh that halfway draws; with `flat` its colours are taken as encoded."""
-        texture = getattr(self.material, "baseColorTexture", None)
-        image = _image(texture) if self.texcoord_0 is not None else None
-        factor = self._factor(flat).tolist() if image is not None else None
-        key = (id(texture), factor)
-        made = self._made.get(flat)
-        if made is not None and made[0] == key:
-            return made[1]
-        colors = self.color_0
-        if colors is not None and flat:
-            colors = np.c_[_decoded(colors[:, :3]), colors[:, 3]]
-        if factor is not None:
-            # A mesh with an image has a white material: its factor goes into the colours of its vertices.
-            colors = np.multiply(np.ones((len(self.positions), 4)) if colors is None else colors, factor)
-        faces = self.indices if self.indices is not None else np.arange(len(self.positions)).reshape(-1, 3)
-        drawn = DrawnMesh(self.positions, faces, normals=self.normals, uvs=self.texcoord_0, image=image,
-                          colors=None if colors is None else colors.astype(np.float32))
-        self._made[flat] = key, drawn
-        return drawn
+        if flat not in self._made:
+            colors = self.color_0
+            if colors is not None and flat:
+                colors = np.c_[_decoded(colors[:, :3]), colors[:, 3]]
+            faces = self.indices if self.indices is not None else np.arange(len(self.positions)).reshape(-1, 3)
+            self._made[flat] = DrawnMesh(self.positions, faces, normals=self.normals, uvs=self.texcoord_0,
+                                         colors=None if colors is None else colors.astype(np.float32))
+        return self._made[flat]
 
     def _factor(self, flat: bool) -> Array:
         factor = np.asarray(getattr(self.material, "baseColorFactor", np.ones(4)), float).clip(0, 1)
         return np.append(_decoded(factor[:3]), factor[3]) if flat else factor
 
-    def _keys(self, flags: int, only_surfaces: bool) -> dict[str, Any]:
+    def _keys(self, flags: int, only_surfaces: bool, images: _Images) -> dict[str, Any]:
         """The keys of its object."""
         material, flat = self.material, bool(flags & RenderFlags.FLAT)
         keys: dict[str, Any] = {"normals": "keep" if self.normals is not None else "face"}
         if only_surfaces:
             return keys
-        for name in ("normalTexture", "occlusionTexture", "emissiveTexture", "metallicRoughnessTexture"):
-            if getattr(material, name, None) is not None:
-                _warn_once(f"{name} is not drawn by halfway.pyrender")
-        if self.texcoord_0 is None or getattr(material, "baseColorTexture", None) is None:
-            if isinstance(material, MetallicRoughnessMaterial):
-                keys["material"] = material._classic()
-                if self.color_0 is not None and len(self.color_0):
-                    tint = self.color_0[:, :3].mean(axis=0)
-                    keys["material"]["specular"] = (keys["material"]["specular"] * tint).tolist()
+        if getattr(material, "metallicRoughnessTexture", None) is not None:
+            _warn_once("metallicRoughnessTexture is not drawn by halfway.pyrender")
+        if isinstance(material, MetallicRoughnessMaterial):
+            keys["material"] = material._classic()
+            if self.color_0 is not None and len(self.color_0):
+                tint = self.color_0[:, :3].mean(axis=0)
+                keys["material"]["specular"] = (keys["material"]["specular"] * tint).tolist()
             if flat:
                 color = self._factor(True)[:3].tolist()
                 keys["material"] = {"ambient": color, "diffuse": color, "opacity": keys["material"]["opacity"]}
+        if self.texcoord_0 is not None:
+            maps = {}
+            for name, texture in (("color", getattr(material, "baseColorTexture", None)),
+                                  ("normal", material.normalTexture), ("occlusion", material.occlusionTexture),
+                                  ("emission", material.emissiveTexture)):
+                if texture is not None and (name == "color" or not flat):
+                    maps[name] = {"path": images.file(texture)}
+            if "color" in maps and not flat and getattr(material, "metallicFactor", 0.0) > 0.5:
+                # A metal reflects in its colour.
+                maps["specular"] = maps["color"]
+            if maps:
+                keys["maps"] = maps
         if self.is_transparent:
             keys["blend"] = True
         elif material.alphaMode == "MASK":
@@ -849,6 +888,7 @@ class OffscreenRenderer:
     def __init__(self, viewport_width: int, viewport_height: int, point_size: float = 1.0) -> None:
         self.viewport_width, self.viewport_height, self.point_size = int(viewport_width), int(viewport_height), point_size
         self._kept: weakref.WeakKeyDictionary[Scene, dict[int, _Kept]] = weakref.WeakKeyDictionary()
+        self._images = _Images()
 
     def render(self, scene: Scene, flags: int = RenderFlags.NONE,
                seg_node_map: Mapping[Node, Any] | None = None) -> Any:
@@ -911,7 +951,7 @@ class OffscreenRenderer:
         lights = [] if flat or only_surfaces else [other.light._keys(scene.get_pose(other)) for other in scene._nodes
                                                    if other.light is not None]
         meshes = [part._drawn(flat) for part in parts]
-        keys = [part._keys(flags, only_surfaces) for part in parts]
+        keys = [part._keys(flags, only_surfaces, self._images) for part in parts]
         recipe = ([id(mesh) for mesh in meshes], keys, scene.bg_color.tolist(), scene.ambient_light.tolist(),
                   [light["kind"] for light in lights], set(camera))
         stacked = np.array(poses, np.float32).reshape(-1, 4, 4)
@@ -943,6 +983,12 @@ class OffscreenRenderer:
     def delete(self) -> None:
         """Frees what is kept of the scenes that were drawn."""
         self._kept.clear()
+        self._images.clear()
+
+    def __del__(self) -> None:
+        # Where the size was wrong, there is nothing to free.
+        if hasattr(self, "_images"):
+            self.delete()
 
 
 def _parts(scene: Scene) -> Iterator[tuple[Node, Primitive, Array]]:

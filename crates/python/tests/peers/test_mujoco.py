@@ -168,6 +168,23 @@ def test_geoms_that_are_added(real):
     assert (np.abs(theirs.astype(int) - ours).max(axis=2) > 32).mean() < 0.01
 
 
+def test_tendons_are_moved(real):
+    model, data = loaded("""<mujoco><worldbody><light pos="0 -1 3" castshadow="false"/><site name="a" pos="0 0 1"/>
+        <geom type="plane" size="1 1 .1"/><body pos=".5 0 .7"><freejoint/><geom type="box" size=".1 .1 .1"/><site name="b"/></body>
+        </worldbody><tendon><spatial width=".05" rgba="1 .5 0 1"><site site="a"/><site site="b"/></spatial></tendon></mujoco>""")
+    theirs, ours = real(model), drop_in.Renderer(model, **SIZE)
+    made = None
+    for height in (0.7, 0.4, 0.2):
+        data.qpos[2] = height
+        mujoco.mj_forward(model, data)
+        a, b = pictures(theirs, data, -1), pictures(ours, data, -1)
+        assert (a[2] != b[2]).any(axis=2).mean() < 0.002
+        assert (b[2][..., 1] == mujoco.mjtObj.mjOBJ_TENDON).sum() > 50
+        assert np.percentile(np.abs(a[0].astype(int) - b[0]), 95) <= 4
+        made = made or ours._scene
+        assert ours._scene is made
+
+
 def test_numbers_of_geoms_are_read_as_one_array():
     model, data = loaded(SHAPES)
     renderer = drop_in.Renderer(model, **SIZE)

@@ -197,6 +197,40 @@ def test_textures_and_poses():
     assert np.allclose(depth[40, 36], 3)
 
 
+def textured(p, metallic, grey=200):
+    """A ball with an image of stripes."""
+    ball = trimesh.creation.uv_sphere(radius=1, count=[32, 32])
+    angle = np.arctan2(ball.vertices[:, 1], ball.vertices[:, 0])
+    ball.visual = trimesh.visual.TextureVisuals(uv=np.stack([angle / 6.2832 + 0.5, ball.vertices[:, 2] / 2 + 0.5], axis=1))
+    image = np.zeros((64, 64, 3), np.uint8)
+    image[::16], image[1::16], image[8:16] = (220, 60, 40), (220, 60, 40), (40, 90, 200)
+    image[image.sum(axis=2) == 0] = grey
+    material = p.MetallicRoughnessMaterial(baseColorTexture=image, baseColorFactor=[0.8, 0.9, 1.0, 1.0],
+                                           metallicFactor=metallic, roughnessFactor=0.5)
+    scene = p.Scene(bg_color=[0.0, 0.0, 0.0], ambient_light=[0.2, 0.2, 0.2])
+    scene.add(p.Mesh.from_trimesh(ball, material=material), pose=turned(1.4, [-1, 0, 0]))
+    scene.add(p.PerspectiveCamera(yfov=0.9), pose=turned(0, [0, 0, 1], (0, 0, 3)))
+    scene.add(p.DirectionalLight(intensity=3.0), pose=turned(-0.5, [1, 0.5, 0]))
+    return scene, material
+
+
+@pytest.mark.parametrize("metallic", [0.0, 1.0])
+def test_images_look_alike(real, metallic):
+    theirs, _ = real.OffscreenRenderer(*SIZE).render(textured(real, metallic)[0])
+    ours, depth = drop_in.OffscreenRenderer(*SIZE).render(textured(drop_in, metallic)[0])
+    assert np.abs(ours.astype(int) - theirs)[depth > 0].mean() < 14
+
+
+def test_a_changed_image_is_seen():
+    scene, material = textured(drop_in, 0.0)
+    renderer = drop_in.OffscreenRenderer(*SIZE)
+    before, _ = renderer.render(scene)
+    material = next(iter(scene.mesh_nodes)).mesh.primitives[0].material
+    material.baseColorTexture = 255 - material.baseColorTexture
+    assert (renderer.render(scene)[0] != before).any()
+    renderer.delete()
+
+
 def test_scenes_of_trimesh():
     source = trimesh.Scene()
     source.add_geometry(trimesh.creation.box((1, 1, 1)), transform=turned(0, [0, 0, 1], (0, 0, 1)))
