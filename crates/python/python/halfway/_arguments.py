@@ -47,6 +47,7 @@ class Options(TypedDict, total=False):
     legend: str
     line_width: float | str
     point_size: float | str
+    hidden_lines: bool
     show: str | Sequence[str]
 
 

@@ -119,6 +119,8 @@ options! {
     line_width: Width = parse::width,
     /// The diameter of the models' points.
     point_size: Width = parse::width,
+    /// Whether parts of the models' lines behind surfaces are dashed.
+    hidden_lines: bool = parse::switch,
     /// Lines that explain the scene.
     show: Show = parse::show,
 }
@@ -185,8 +187,9 @@ impl SceneOptions {
             scene.edges = Some(edges.into());
             scene.objects.iter_mut().for_each(|object| object.edges = None);
         }
-        let Self { line_width, point_size, .. } = *self;
-        if line_width.is_some() || point_size.is_some() {
+        let Self { line_width, point_size, hidden_lines, .. } = *self;
+        let hidden = hidden_lines.map(|dashed| if dashed { HiddenEdges::Dash } else { HiddenEdges::Omit });
+        if line_width.is_some() || point_size.is_some() || hidden.is_some() {
             let all = std::iter::once(&mut scene.line_style).chain(scene.objects.iter_mut().map(|o| &mut o.line_style));
             for (i, entry) in all.enumerate() {
                 // Objects that name no style follow the scene's.
@@ -195,6 +198,7 @@ impl SceneOptions {
                     *entry = Some(LineStyleEntry {
                         line_width: line_width.unwrap_or(style.line_width),
                         point_size: point_size.unwrap_or(style.point_size),
+                        hidden: hidden.unwrap_or(style.hidden),
                         ..style
                     });
                 }
