@@ -25,6 +25,15 @@ impl OracleScene {
         }
     }
 
+    /// The diffuse reflectance at a hit.
+    fn albedo(&self, hit: &Hit) -> Color {
+        let solid = &self.solids[hit.solid];
+        let color = solid.color(hit.on_triangle()).truncate().to_array();
+        let material = solid.side(hit.front).coefficients.tinted(color);
+        let [r, g, b, _] = self.factor(hit, MapKind::Color);
+        mul([r, g, b], mul(self.solid_color(hit), if solid.lit { material.kd } else { material.ka }))
+    }
+
     /// The intensity of the side that a ray hits: emission, ambient light, and the terms of the lights where they are
     /// evaluated. Images and solids multiply each of them at the point itself.
     fn intensity_at(&self, hit: &Hit) -> Color {
