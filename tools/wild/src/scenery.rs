@@ -98,7 +98,7 @@ fn show_numbers(random: &mut Rng, scene: &mut Object) {
         let takes_images = |object: &Value| object.get("maps").is_some() || object.get("solid").is_some();
         let numbers = if is_twin(objects, at) {
             objects[at - 1].get("scalars").cloned()
-        } else if random.percent(60) {
+        } else if random.percent(80) {
             scalars::scalars(random, &objects[at])
         } else {
             None

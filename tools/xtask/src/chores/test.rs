@@ -30,8 +30,7 @@ pub(crate) struct Options {
     /// Run every test, on every adapter; install what they need
     #[arg(long)]
     all: bool,
-    /// Test the package for Python beside the packages of others that it reads or stands in for; they are downloaded from
-    /// `PyPI` into target/wheel-peers
+    /// Test the package for Python beside those of others, which are installed from `PyPI` into target/wheel-peers
     #[arg(long, conflicts_with = "all")]
     peers: bool,
     /// Have each driver draw a share of the rows with textures, whose shaders take minutes to compile, and not all
