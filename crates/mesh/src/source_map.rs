@@ -71,7 +71,7 @@ pub enum SourceLevels {
 
 impl SourceMap {
     /// The whole image, repeated and smooth.
-    pub(crate) fn new(name: String, bytes: Arc<[u8]>) -> Self {
+    pub fn new(name: String, bytes: Arc<[u8]>) -> Self {
         Self {
             name,
             bytes,

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use halfway::mesh::{
-    Format, LoadOptions, Model, MtlMaps, MtlMaterial, Part, Property, ScalarValues, SourceLevels, SourceMap,
-    SourceMaterial, SourceWrap, load_with,
+    Format, LoadOptions, Model, MtlMaps, MtlMaterial, Part, Property, ScalarValues, SourceMap, SourceMaterial,
+    load_with,
 };
 use halfway::prelude::{Mat4, Vec2, Vec3, Vec4};
 use pyo3::buffer::PyBuffer;
@@ -96,7 +96,7 @@ impl Mesh {
         self.model.bounds().map(|bounds| (bounds.min.to_array(), bounds.max.to_array()))
     }
 
-    /// What was skipped or corrected when the file was read.
+    /// Sentences about all that was skipped or corrected when the file was read.
     fn warnings(&self) -> Vec<String> {
         self.model.warnings.clone()
     }
@@ -126,20 +126,7 @@ impl Mesh {
 
 /// A white material with an image.
 fn image_on_white(bytes: Vec<u8>) -> SourceMaterial {
-    let map = SourceMap {
-        name: "image".to_owned(),
-        bytes: bytes.into(),
-        wrap: [SourceWrap::Repeat; 2],
-        smooth: true,
-        smooth_levels: true,
-        levels: SourceLevels::default(),
-        uv_set: 0,
-        offset: [0.0; 2],
-        rotation: 0.0,
-        scale: [1.0; 2],
-        channel: None,
-        amount: 1.0,
-    };
+    let map = SourceMap::new("image".to_owned(), bytes.into());
     let finish = halfway::scene::options::finish(halfway::prelude::LinearRgba::WHITE);
     SourceMaterial::Mtl(MtlMaterial {
         ka: Some([1.0; 3]),

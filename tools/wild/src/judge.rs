@@ -324,7 +324,7 @@ impl Pictures {
     }
 }
 
-/// What lines are drawn on.
+/// The picture that lines are drawn on.
 const GREY: f32 = 0.5;
 /// Rounding of the same computation on the same numbers.
 const LINE_ROUNDING: f32 = 1e-5;

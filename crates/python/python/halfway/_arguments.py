@@ -1,4 +1,4 @@
-"""What users give, checked, and turned into what the compiled half takes."""
+"""Arguments, checked and turned into those of the compiled half."""
 
 from __future__ import annotations
 

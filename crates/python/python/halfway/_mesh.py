@@ -106,7 +106,7 @@ class Mesh:
 
     @property
     def warnings(self) -> list[str]:
-        """What was skipped or corrected when a file was read."""
+        """Sentences about all that was skipped or corrected when a file was read."""
         return list(self._mesh.warnings())
 
     def __repr__(self) -> str:

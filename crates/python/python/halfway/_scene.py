@@ -208,7 +208,7 @@ class Scene:
                 self.add(source)
         self._data.setdefault("objects", [])
 
-    # What it holds.
+    # Its contents.
 
     def add(
         self,
@@ -408,7 +408,8 @@ class Scene:
                                    reference)
         # The newest are kept: views that alternate are drawn from what is there.
         while len(self._drawings) >= 4:
-            del self._drawings[next(iter(self._drawings))]
+            # Another thread may have taken it out.
+            self._drawings.pop(next(iter(self._drawings), None), None)
         self._drawings[key] = drawing
         return drawing, True
 
@@ -470,7 +471,8 @@ class Scene:
         if "view" in options:
             raise TypeError("view: cannot stand beside views")
         drawing, is_new = self._drawing(size, None, {"fit": 0.9, **options}, False)
-        del self._drawings[next(key for key, value in self._drawings.items() if value is drawing)]
+        # Its camera is moved from view to view.
+        self._drawings = {key: value for key, value in list(self._drawings.items()) if value is not drawing}
         sheet = drawing.sheet(text)
         if is_new:
             self._warn(drawing.take_warnings())

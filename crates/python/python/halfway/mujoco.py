@@ -64,7 +64,7 @@ FLOATS = 23
 
 
 def __getattr__(name: str) -> Any:
-    """What this module does not have is that of the package mujoco."""
+    """All other names are those of the package mujoco."""
     return getattr(mujoco, name)
 
 

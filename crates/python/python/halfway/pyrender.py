@@ -254,7 +254,7 @@ class SpotLight(Light):
 
 
 class Material:
-    """What materials have in common."""
+    """The properties that all materials have."""
 
     def __init__(self, name: str | None = None, normalTexture: Any = None, occlusionTexture: Any = None,
                  emissiveTexture: Any = None, emissiveFactor: Any = None, alphaMode: str | None = None,
@@ -873,7 +873,7 @@ class Scene:
 
 
 class _Kept:
-    """What was made of a scene, to be moved and drawn again while nothing but places changes."""
+    """The scene of halfway made from one of these, kept while nothing but places changes."""
 
     def __init__(self, recipe: Any, scene: DrawnScene) -> None:
         self.recipe, self.scene, self.objects = recipe, scene, scene.objects

@@ -159,7 +159,7 @@ impl Oracle {
         self.clamp && self.scene.shows == Shows::Color && !self.scene.intensity.acts_on_pictures()
     }
 
-    /// What becomes of the finished picture.
+    /// The policy for the finished picture.
     fn policy(&self) -> Intensity {
         if self.scene.shows == Shows::Color { self.scene.intensity } else { Intensity::Clamp }
     }

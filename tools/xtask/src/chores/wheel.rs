@@ -29,7 +29,7 @@ pub(crate) struct Options {
     test: bool,
 }
 
-/// What maturin is asked for: the oldest Linux that the compiler supports.
+/// The oldest Linux that the wheel is for, and that the compiler supports.
 const COMPATIBILITY: &str = "manylinux2014";
 /// Of `PyPI`, what builds, and what tests beside it.
 const BUILDERS: [&str; 2] = ["maturin>=1.16,<2", "ziglang>=0.13,<0.18"];
