@@ -22,6 +22,7 @@ mod model;
 mod normals;
 mod numbering;
 mod occlusion;
+mod origin;
 mod prepare;
 mod problems;
 #[cfg(feature = "formats")]
@@ -49,6 +50,7 @@ pub use model::{
 };
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
 pub use occlusion::{OcclusionBake, OcclusionError, OcclusionImage};
+pub use origin::origin_of_box;
 pub use prepare::{
     DistanceBounds, LodCluster, LodGroup, LodHierarchy, MeshReport, RepairReport, SimplifiedMesh, Weld, WeldReport,
 };

@@ -58,6 +58,8 @@ struct Notes {
     normals: NormalOrigin,
     /// Whether no two vertices are known to share a position, so that they need no numbering.
     are_apart: bool,
+    /// Whether every vertex is a corner of some triangle.
+    are_used: bool,
 }
 
 /// Who made the normals.
@@ -178,11 +180,9 @@ pub enum MeshError {
 impl MeshData {
     /// Replaces the positions by valid ones, as many as before.
     fn place(&mut self, positions: Vec<Vec3>) {
-        if let Some(bounds) = Bounds::from_points(positions.iter().copied()) {
-            self.bounds = bounds;
-        }
+        self.bounds = bounds_of_used(&positions, &self.indices, self.notes.are_used);
         self.positions = Arc::new(positions);
-        self.notes = Notes { normals: self.notes.normals.of_others(), are_apart: false };
+        self.notes = Notes { normals: self.notes.normals.of_others(), are_apart: false, ..self.notes };
         self.surface = None;
     }
 }
@@ -241,15 +241,19 @@ impl Mesh {
         }
         let points = Numbering::from_positions(&positions);
         let (normals, report) = vertex_normals(&positions, &points, &indices, NormalWeighting::default());
-        let notes = Notes { normals: NormalOrigin::DefaultOfThese(report), are_apart: points.are_distinct() };
-        let mesh = Self::checked(positions, normals, uvs, indices).changed(|data| data.notes = notes);
+        let mesh = Self::checked(positions, normals, uvs, indices).changed(|data| {
+            data.notes.normals = NormalOrigin::DefaultOfThese(report);
+            data.notes.are_apart = points.are_distinct();
+        });
         Ok((mesh, report))
     }
 
     /// A mesh from data that is known to be valid.
     pub(crate) fn checked(positions: Vec<Vec3>, normals: Vec<Vec3>, uvs: Option<Vec<Vec2>>, indices: Vec<u32>) -> Self {
-        let bounds =
-            Bounds::from_points(positions.iter().copied()).unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO });
+        let mut is_used = vec![false; positions.len()];
+        indices.iter().for_each(|index| is_used[*index as usize] = true);
+        let are_used = !is_used.contains(&false);
+        let bounds = bounds_of_used(&positions, &indices, are_used);
         let data = MeshData {
             positions: Arc::new(positions),
             normals: Arc::new(normals),
@@ -260,7 +264,7 @@ impl Mesh {
             indices: Arc::new(indices),
             bounds,
             surface: None,
-            notes: Notes { normals: NormalOrigin::Given, are_apart: false },
+            notes: Notes { normals: NormalOrigin::Given, are_apart: false, are_used },
         };
         Self { data: Arc::new(data) }
     }
@@ -551,10 +555,20 @@ impl Mesh {
         self.data.surface.as_ref()
     }
 
-    /// The box around all vertices.
+    /// The box around all vertices that are corners of triangles.
     pub fn bounds(&self) -> Bounds {
         self.data.bounds
     }
+}
+
+/// The box around the vertices that triangles use; all of them, where that is known.
+fn bounds_of_used(positions: &[Vec3], indices: &[u32], are_used: bool) -> Bounds {
+    let bounds = if are_used {
+        Bounds::from_points(positions.iter().copied())
+    } else {
+        Bounds::from_points(indices.iter().map(|index| positions[*index as usize]))
+    };
+    bounds.unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO })
 }
 
 pub(crate) fn check_count(elements: &'static str, count: usize) -> Result<(), MeshError> {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::Mat4;
+use glam::{DVec3, Mat4};
 
 use crate::{Bounds, Lines, Mesh, SourceMap};
 
@@ -22,6 +22,10 @@ use crate::{Bounds, Lines, Mesh, SourceMap};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
+    /// The point from which all places are counted: those of parts, lines, lights and cameras are in the world less
+    /// this. It is 0 but for models far away beside their size ([`origin_of_box`](crate::origin_of_box)), such as those
+    /// at map coordinates, whose positions `f32` would round.
+    pub origin: DVec3,
     /// The meshes. A model that came from [`load`](crate::load) has at least one here or in `lines`.
     pub parts: Vec<Part>,
     /// The lines and points.
@@ -39,7 +43,8 @@ pub struct Model {
 }
 
 impl Model {
-    /// The box around all meshes, lines and points in world space, or `None` where there are none.
+    /// The box around all meshes, lines and points, counted from [`origin`](Self::origin), or `None` where there are
+    /// none.
     pub fn bounds(&self) -> Option<Bounds> {
         let meshes = self.parts.iter().map(|part| part.mesh.bounds().transformed(&part.world_from_part));
         let lines = self.lines.iter().map(|part| part.lines.bounds().transformed(&part.world_from_part));

@@ -148,7 +148,8 @@ impl Document {
     }
 
     fn floats_of(&mut self, mesh: &Mesh) -> Map<String, Value> {
-        let bounds = mesh.bounds();
+        // Of all vertices, used or not, as the format asks.
+        let bounds = Bounds::from_points(mesh.positions().iter().copied()).unwrap_or(mesh.bounds());
         let positions = self.floats("VEC3", mesh.positions().iter().map(Vec3::to_array));
         self.accessors[positions]["min"] = json!(bounds.min.to_array());
         self.accessors[positions]["max"] = json!(bounds.max.to_array());
