@@ -10,13 +10,13 @@ pub use crate::HalfwayPlugins;
 pub use bevy_app::{self, prelude::*};
 pub use bevy_color::{Color, ColorToComponents as _, Gray as _, LinearRgba, Srgba};
 pub use bevy_ecs::{self, prelude::*};
-pub use bevy_math::{EulerRot, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
+pub use bevy_math::{DMat4, DVec3, EulerRot, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4};
 pub use bevy_time::{Fixed, Real, Time, Virtual};
 pub use bevy_transform::prelude::{GlobalTransform, Transform, TransformPlugin};
 pub use halfway_asset::{Assets, Handle};
 pub use halfway_lighting::{
     AlphaMode, Attenuation, BackMaterial, Camera, Cone, DirectionalLight, Encoding, Faces, Film, Frequency,
-    GlobalAmbient, HemisphereLight, Intensity, Layers, LightingPlugin, Load, Material, PointLight, Projection,
+    GlobalAmbient, HemisphereLight, Intensity, Layers, LightingPlugin, Load, Material, Origin, PointLight, Projection,
     Reflectance, Samples, Shading, SpotLight, Terms, Tolerance, VertexColors, ViewTolerance, Viewer, Viewport,
     Visibility,
 };

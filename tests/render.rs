@@ -28,6 +28,7 @@ mod render {
     mod errors;
     mod explained;
     mod failures;
+    mod far;
     mod floats;
     mod globs;
     mod known_issues;

@@ -7,7 +7,7 @@ use clap::Args;
 use halfway::mesh::{
     AlphaMode, LodGroup, Mesh, Model, Normals, ScalarValues, SourceLightKind, SourceMaterial, SourceProjection,
 };
-use halfway::prelude::Vec3;
+use halfway::prelude::{DVec3, Vec3};
 
 use crate::failure::Failure;
 use crate::reading::ReadingArgs;
@@ -195,8 +195,19 @@ fn print_shape(model: &Model) {
     println!("vertices   {}", vertices(model));
     if let Some(bounds) = model.bounds() {
         let size = bounds.max - bounds.min;
-        println!("bounds     {} to {}, size {size}", bounds.min, bounds.max);
+        let [min, max] = [bounds.min, bounds.max].map(|corner| in_the_file(model.origin, corner, size));
+        println!("bounds     {min} to {max}, size {size}");
     }
+}
+
+/// A point as the file has it. Far from the origin, with the digits that `f32` keeps of the model's size.
+fn in_the_file(origin: DVec3, point: Vec3, size: Vec3) -> String {
+    if origin == DVec3::ZERO {
+        return point.to_string();
+    }
+    let [x, y, z] = (origin + point.as_dvec3()).to_array();
+    let decimals = (6.0 - size.max_element().log10().floor()).clamp(0.0, 17.0) as usize;
+    format!("[{x:.decimals$}, {y:.decimals$}, {z:.decimals$}]")
 }
 
 fn print_material(material: &SourceMaterial) {

@@ -20,7 +20,7 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, InternedSystemSet, ScheduleConfigs, ScheduleLabel};
 use bevy_transform::TransformSystems;
-use halfway_lighting::{CameraTurn, LightingPlugin, Material};
+use halfway_lighting::{CameraTurn, FrameOrigin, LightingPlugin, Material, place_by_origins};
 use halfway_mesh::{Mesh3d, MeshPlugin};
 use halfway_texture::TexturePlugin;
 
@@ -47,6 +47,7 @@ impl Plugin for FramePlugin {
             .init_resource::<WaitsForLevels>()
             .init_resource::<PictureSize>()
             .init_resource::<CameraTurn>()
+            .init_resource::<FrameOrigin>()
             .init_resource::<Epoch>()
             .init_resource::<View>()
             .init_resource::<Visible>()
@@ -61,6 +62,7 @@ impl Plugin for FramePlugin {
         app.configure_sets(self.schedule, order.after(TransformSystems::Propagate)).add_systems(
             self.schedule,
             (
+                place_by_origins.in_set(ReadCamera).before(camera::update),
                 camera::require_propagation.in_set(ReadCamera).after(camera::update),
                 meshes::forget_removed.in_set(RenderSet::Choose).after(terms::check).before(meshes::lay_out),
             ),

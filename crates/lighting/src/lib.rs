@@ -43,6 +43,7 @@
 //! - [`Edges`], [`LineStyle`] and [`Show`]: lines over the finished picture.
 //! - [`matched_shininess`]: the Blinn–Phong exponent for a Phong highlight.
 //! - [`Shown`], [`Cameras`], [`propagation`]: what is shown; which camera draws; whether transforms are propagated.
+//! - [`Origin`]: what is far from the origin of the world, such as at map coordinates.
 //! - [`homogeneous`]: light positions as four coordinates.
 //!
 //! No GPU, no window, no file is touched.
@@ -95,6 +96,8 @@ mod line_style;
 mod matched;
 mod material;
 #[cfg(feature = "ecs")]
+mod origin;
+#[cfg(feature = "ecs")]
 mod place;
 #[cfg(feature = "ecs")]
 mod plugin;
@@ -137,6 +140,8 @@ pub use lights::{Attenuation, Cone, DirectionalLight, HemisphereLight, LightComp
 pub use line_style::{LineStyle, Width};
 pub use matched::matched_shininess;
 pub use material::{BackMaterial, Material};
+#[cfg(feature = "ecs")]
+pub use origin::{FrameOrigin, Origin, place_by_origins, world_place};
 #[cfg(feature = "ecs")]
 pub use place::{light_direction, light_position, light_up};
 #[cfg(feature = "ecs")]

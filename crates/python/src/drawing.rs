@@ -260,7 +260,7 @@ impl Drawing {
 
     /// Moves objects, by their places in the list, to where matrices take them, of 16 numbers each, row by row. Returns
     /// whether all could be moved so; else the scene has to be made again.
-    fn place_objects(&self, py: Python<'_>, objects: PyBuffer<u32>, matrices: PyBuffer<f32>) -> PyResult<bool> {
+    fn place_objects(&self, py: Python<'_>, objects: PyBuffer<u32>, matrices: PyBuffer<f64>) -> PyResult<bool> {
         let (objects, matrices) = (objects.to_vec(py)?, matrices.to_vec(py)?);
         self.with(py, |app, spawned, recipe| {
             if recipe.frames_objects() {
@@ -269,7 +269,7 @@ impl Drawing {
             let world = app.world_mut();
             let mut placed = objects.iter().zip(matrices.as_chunks::<16>().0);
             Ok(placed.all(|(&object, matrix)| {
-                spawned.place_object(object as usize, &Mat4::from_cols_array(matrix).transpose(), world)
+                spawned.place_object(object as usize, &DMat4::from_cols_array(matrix).transpose(), world)
             }))
         })
     }

@@ -20,6 +20,7 @@ fn _halfway(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<mesh::Mesh>()?;
     module.add_class::<drawing::Drawing>()?;
+    module.add_function(wrap_pyfunction!(mesh::origin_of_box, module)?)?;
     drawing::add_to(module)?;
     pictures::add_to(module)?;
     equations::add_to(module)

@@ -32,9 +32,11 @@ fn vectors<const N: usize, V: From<[f32; N]>>(py: Python<'_>, numbers: &PyBuffer
 impl Mesh {
     /// A mesh of contiguous arrays: x, y, z of each vertex, three indices a triangle, and what else there is of each
     /// vertex. `properties` are numbers with a name, of each vertex or of each triangle. `image` is the bytes of a PNG
-    /// or JPEG that multiplies the diffuse colour.
+    /// or JPEG that multiplies the diffuse colour. Vertices are counted from `origin`.
     #[new]
-    #[pyo3(signature = (name, vertices, faces, normals=None, uvs=None, colors=None, properties=Vec::new(), image=None))]
+    #[pyo3(signature = (
+        name, vertices, faces, normals=None, uvs=None, colors=None, properties=Vec::new(), image=None, origin=[0.0; 3]
+    ))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn new(
         py: Python<'_>,
@@ -46,6 +48,7 @@ impl Mesh {
         colors: Option<PyBuffer<f32>>,
         properties: Vec<(String, bool, PyBuffer<f32>)>,
         image: Option<Vec<u8>>,
+        origin: [f64; 3],
     ) -> PyResult<Self> {
         let positions: Vec<Vec3> = vectors(py, &vertices)?;
         let indices = faces.to_vec(py)?;
@@ -64,7 +67,7 @@ impl Mesh {
             let materials: Vec<SourceMaterial> = image.map(image_on_white).into_iter().collect();
             let material = materials.first().map(|_| 0);
             let part = Part { name: String::new(), mesh, material, world_from_part: Mat4::IDENTITY };
-            let model = Model { parts: vec![part], materials, properties, ..Model::default() };
+            let model = Model { parts: vec![part], materials, properties, origin: origin.into(), ..Model::default() };
             Ok(Self { model: Arc::new(model), name: name.into() })
         })
     }
@@ -91,7 +94,12 @@ impl Mesh {
         (vertices, self.model.triangle_count())
     }
 
-    /// The least and the greatest coordinates.
+    /// The point from which coordinates are counted.
+    fn origin(&self) -> [f64; 3] {
+        self.model.origin.to_array()
+    }
+
+    /// The least and the greatest coordinates, counted from the origin.
     fn bounds(&self) -> Option<([f32; 3], [f32; 3])> {
         self.model.bounds().map(|bounds| (bounds.min.to_array(), bounds.max.to_array()))
     }
@@ -122,6 +130,12 @@ impl Mesh {
         }
         (PyByteArray::new(py, &vertices), PyByteArray::new(py, &faces))
     }
+}
+
+/// The point from which the vertices of a box are counted.
+#[pyfunction]
+pub(crate) fn origin_of_box(low: [f64; 3], high: [f64; 3]) -> [f64; 3] {
+    halfway::mesh::origin_of_box(low.into(), high.into()).to_array()
 }
 
 /// A white material with an image.

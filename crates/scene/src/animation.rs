@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use bevy_app::{App, Plugin, Update};
 use bevy_ecs::prelude::*;
+use bevy_math::DVec3;
 use bevy_time::Time;
 use bevy_transform::components::Transform;
-use halfway_lighting::Camera;
+use halfway_lighting::{Camera, Origin};
 
 use crate::light::LightEntry;
 use crate::light_place::place;
@@ -80,10 +81,11 @@ fn play(world: &mut World) {
 }
 
 fn pose(entity: &mut EntityWorldMut, animated: &Animated, time: f64) {
+    let origin = entity.get::<Origin>().map_or(DVec3::ZERO, |origin| origin.0);
     let transform = match animated {
-        Animated::Object(object) => object.0.at(&object.1, time).parts(),
+        Animated::Object(object) => object.0.at(&object.1, time).parts(origin),
         Animated::Light(light) => {
-            let (component, transform) = place(&light.0.at(&light.1, time));
+            let (component, transform) = place(&light.0.at(&light.1, time), origin);
             component.insert_into(entity);
             Some(transform)
         }
@@ -96,7 +98,7 @@ fn pose(entity: &mut EntityWorldMut, animated: &Animated, time: f64) {
                 }
             }
             // At a moment without a direction it stays as it was.
-            camera.axes().map(|_| camera.transform())
+            camera.axes().map(|_| camera.transform(origin))
         }
     };
     // Transforms that stay are not touched, so that nothing after them has to be done again.

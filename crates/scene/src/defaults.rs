@@ -36,8 +36,8 @@ pub fn framing_camera(points: impl IntoIterator<Item = Vec3>, aspect: f32) -> Ca
     let least = center.abs().max_element() * 1e-5;
     let distance = if tight > 0.0 { (tight * MARGIN).max(least) } else { least.max(1.0) * 3.0 };
     CameraEntry {
-        position: to_f32(target + back * distance),
-        target: to_f32(target),
+        position: in_f32(target + back * distance),
+        target: in_f32(target),
         near: near_plane(distance, nearest),
         ..default
     }
@@ -49,8 +49,9 @@ fn near_plane(distance: f64, nearest: f64) -> f32 {
     near.clamp(f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX)) as f32
 }
 
-fn to_f32(v: DVec3) -> [f32; 3] {
-    v.to_array().map(|c| c.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32)
+/// A point as a `Transform` holds it.
+fn in_f32(v: DVec3) -> [f64; 3] {
+    v.to_array().map(|c| f64::from(c.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32))
 }
 
 /// The lights of a scene that has none of its own: a key light from the upper left, a weaker fill light from the right,
@@ -113,7 +114,7 @@ mod tests {
     /// The position of a point in the picture, ±1 at its edges.
     fn in_picture(camera: &CameraEntry, aspect: f32, p: Vec3) -> (f64, f64) {
         let [right, up, back] = camera.axes().unwrap();
-        let p = p.as_dvec3() - Vec3::from(camera.position).as_dvec3();
+        let p = p.as_dvec3() - DVec3::from(camera.position);
         let depth = -p.dot(back);
         assert!(depth > f64::from(camera.near), "{depth} is before the near plane {}", camera.near);
         let tan = (f64::from(camera.fov_y_deg).to_radians() * 0.5).tan();

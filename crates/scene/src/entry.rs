@@ -86,6 +86,21 @@ impl Entry for f32 {
     }
 }
 
+impl Entry for f64 {
+    as_serde_has_it!();
+
+    fn schema(definitions: &mut Map<String, Value>, limits: &Limits) -> Value {
+        let mut schema = f32::schema(definitions, limits);
+        schema["format"] = json!("double");
+        schema
+    }
+
+    /// What is drawn is in `f32` in the end, and so are ranges.
+    fn check(&self, limits: &Limits) -> Check {
+        (*self as f32).check(limits)
+    }
+}
+
 impl Entry for u32 {
     as_serde_has_it!();
 

@@ -107,6 +107,8 @@ fn in_words_of_the_format(message: &str) -> String {
         ("wrong type: sequence,", "wrong type: list,"),
         ("expected a sequence", "expected a list"),
         ("expected f32", "expected a number"),
+        ("expected f64", "expected a number"),
+        ("number out of range", "is too large; expected a number of at most 3.4e38"),
         ("expected u32", "expected a whole number from 0 to 4294967295"),
         ("expected path string", "expected a path in quotes"),
     ] {

@@ -13,7 +13,7 @@ use crate::described;
 use crate::entry::Entry;
 use crate::keys::{CheckKeys, Fill, Key, Keys, Object, Presence, Visit, Words, keys, keys_schema, words};
 use crate::named::NameOrIndex;
-use crate::track::{Animate, AnimatedKey, TrackEntry, three};
+use crate::track::{Animate, AnimatedKey, TrackEntry, single_precision, three};
 use crate::viewport::LAYERS;
 
 /// A light. In JSON, the keys of `cone` and `light` stand beside the others, as far as the kind of light has them
@@ -23,7 +23,7 @@ pub struct LightEntry {
     /// The kind of light.
     pub kind: LightKind,
     /// Where the light is: (x, y, z, w), not all 0, with w = 1 in a point or spot light, whose file has three numbers.
-    pub position: [f32; 4],
+    pub position: [f64; 4],
     /// The direction and the cone; a directional light has the direction alone.
     pub cone: ConeEntry,
     /// Its colors and their attenuation, unless it is a hemisphere.
@@ -220,11 +220,11 @@ impl LightEntry {
     }
 }
 
-fn homogeneous(key: &str, p: &[f32; 4]) -> Check {
+fn homogeneous(key: &str, p: &[f64; 4]) -> Check {
     if p.iter().all(|&c| c == 0.0) {
         return Err(KeyProblem::new(key, "is [0, 0, 0, 0]; expected a point (w not 0) or a direction (w = 0)"));
     }
-    if p[3] != 0.0 && p[..3].iter().any(|c| !(c / p[3]).is_finite()) {
+    if p[3] != 0.0 && p[..3].iter().any(|c| !((c / p[3]) as f32).is_finite()) {
         return Err(KeyProblem::new(key, format!("is {p:?}; expected xyz/w to be finite, or w = 0")));
     }
     Ok(())
@@ -245,12 +245,12 @@ impl<V: Visit> Visit for KeysOfKind<'_, V> {
 }
 
 /// The position in a file: three numbers, or four of a homogeneous light. Of three, w is NaN, which no file can say.
-struct Position([f32; 4]);
+struct Position([f64; 4]);
 
 impl Entry for Position {
     fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match Vec::read(deserializer)?[..] {
-            [x, y, z] => Ok(Self([x, y, z, f32::NAN])),
+            [x, y, z] => Ok(Self([x, y, z, f64::NAN])),
             [x, y, z, w] => Ok(Self([x, y, z, w])),
             ref others => {
                 let count = others.len();
@@ -411,13 +411,13 @@ impl Animate for LightEntry {
         Err(format!("expected a key of this light: {}", own.join(", ")))
     }
 
-    fn set(&mut self, key: AnimatedKey, value: [f32; 4]) {
-        let [red, green, blue, _] = value;
+    fn set(&mut self, key: AnimatedKey, value: [f64; 4]) {
+        let [red, green, blue, _] = single_precision(value);
         let color = LinearRgba::rgb(red, green, blue);
         match key {
             AnimatedKey::Position if self.kind == LightKind::Homogeneous => self.position = value,
             AnimatedKey::Position => self.position[..3].copy_from_slice(&three(value)),
-            AnimatedKey::Direction => self.cone.direction = three(value),
+            AnimatedKey::Direction => self.cone.direction = single_precision(three(value)),
             AnimatedKey::Ambient => self.light.ambient = color,
             AnimatedKey::Diffuse => self.light.diffuse = color,
             AnimatedKey::Specular => self.light.specular = color,

@@ -1,7 +1,7 @@
 //! A light of a scene file as a component and a place.
 
 use bevy_color::LinearRgba;
-use bevy_math::{Quat, Vec3, Vec4};
+use bevy_math::{DVec3, DVec4, Quat, Vec3, Vec4};
 use bevy_transform::components::Transform;
 use halfway_lighting::equations::spot_factor;
 use halfway_lighting::homogeneous::{LightPlace, from_homogeneous};
@@ -9,8 +9,9 @@ use halfway_lighting::{Cone, DirectionalLight, LightComponent, SpotLight, rotati
 
 use crate::light::{ConeEntry, LightEntry, LightKind};
 
-/// The component of a light and its transform in the frame it is attached to. The light is one that validation passed.
-pub(crate) fn place(entry: &LightEntry) -> (LightComponent, Transform) {
+/// The component of a light and its transform in the frame it is attached to, counted from an origin there. The light is
+/// one that validation passed.
+pub(crate) fn place(entry: &LightEntry, origin: DVec3) -> (LightComponent, Transform) {
     let direction = Vec3::from(entry.cone.direction);
     let place = match entry.kind {
         // Validation has refused directions of length 0. The sky is along +Y.
@@ -19,7 +20,7 @@ pub(crate) fn place(entry: &LightEntry) -> (LightComponent, Transform) {
             return (LightComponent::Hemisphere(entry.hemisphere), Transform::from_rotation(up));
         }
         LightKind::Directional => Ok(LightPlace::Directional(-direction)),
-        _ => from_homogeneous(Vec4::from(entry.position)),
+        _ => from_homogeneous(counted_from(origin, entry.position)),
     };
     match place {
         Ok(LightPlace::Directional(toward)) => far_light(entry, toward),
@@ -27,6 +28,12 @@ pub(crate) fn place(entry: &LightEntry) -> (LightComponent, Transform) {
         // Refused by validation.
         Err(_) => near_light(entry, Transform::IDENTITY),
     }
+}
+
+/// A homogeneous position less an origin: a direction stays.
+fn counted_from(origin: DVec3, position: [f64; 4]) -> Vec4 {
+    let position = DVec4::from(position);
+    (position - (origin * position.w).extend(0.0)).as_vec4()
 }
 
 /// A point light, or a spot light where there is a cone.

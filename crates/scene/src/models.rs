@@ -6,7 +6,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use bevy_color::LinearRgba;
-use bevy_math::Mat4;
+use bevy_math::{DVec3, Mat4};
 use bevy_transform::components::Transform;
 use halfway_asset::Handle;
 use halfway_mesh::{Lines, Mesh, Model, NormalReport, Normals, Property, SourceCamera, SourceMap, SourceMaterial};
@@ -26,6 +26,8 @@ pub(crate) struct ObjectShape {
     pub(crate) lights: Vec<ShapeLight>,
     /// The model's cameras.
     pub(crate) cameras: Vec<SourceCamera>,
+    /// The point of the object from which the places of all of them are counted.
+    pub(crate) origin: DVec3,
 }
 
 /// One mesh of a shape, where it stands inside the object.
@@ -179,7 +181,13 @@ impl<'a> Shapes<'a> {
         self.warn_of_normals(&at, report);
         let (name, object_from_part) = (String::new(), Mat4::IDENTITY);
         let part = ShapePart { name, mesh, object_from_part, own: None, maps, scalars };
-        Ok(ObjectShape { parts: vec![part], lines: Vec::new(), lights: Vec::new(), cameras: Vec::new() })
+        Ok(ObjectShape {
+            parts: vec![part],
+            lines: Vec::new(),
+            lights: Vec::new(),
+            cameras: Vec::new(),
+            origin: DVec3::ZERO,
+        })
     }
 
     /// The image that displaces an object; of one that cannot be read there is a warning.
@@ -261,7 +269,7 @@ impl<'a> Shapes<'a> {
             object_from_part: part.world_from_part,
             own: part.material.and_then(|material| materials.get(material)).copied(),
         });
-        Ok(ObjectShape { parts, lines: lines.collect(), lights, cameras: model.cameras })
+        Ok(ObjectShape { parts, lines: lines.collect(), lights, cameras: model.cameras, origin: model.origin })
     }
 
     fn material(&mut self, source: &SourceMaterial, at: String, index: usize) -> Result<ModelMaterial, SceneError> {

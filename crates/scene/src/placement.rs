@@ -5,7 +5,7 @@
 //! singular value decomposition), and that is two transforms, one inside the other: U and Σ outside, Vᵀ inside. So a
 //! sheared matrix becomes a parent and a child, and nothing of it is lost.
 
-use bevy_math::{DMat3, DQuat, DVec3, Mat4, Quat, Vec3};
+use bevy_math::{DMat3, DMat4, DQuat, DVec3, Quat, Vec3};
 use bevy_transform::components::Transform;
 
 /// A matrix as transforms, the outer one first.
@@ -24,9 +24,9 @@ const RANK: f64 = 1e-14;
 
 impl Placement {
     /// The transforms whose product is the affine matrix `m`, to the rounding of `f32` relative to its largest axis.
-    pub(crate) fn from_matrix(m: &Mat4) -> Self {
-        let axes = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.truncate().as_dvec3());
-        let translation = m.w_axis.truncate();
+    pub(crate) fn from_matrix(m: &DMat4) -> Self {
+        let axes = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.truncate());
+        let translation = m.w_axis.truncate().as_vec3();
         if perpendicular(&axes) {
             let (rotation, scale) = rotation_and_scale(axes, 0.0);
             return Self { outer: Transform { translation, rotation, scale }, inner: None };
@@ -111,6 +111,7 @@ fn quat(rotation: DMat3) -> Quat {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bevy_math::Mat4;
 
     fn product(placement: &Placement) -> Mat4 {
         let inner = placement.inner.unwrap_or_default();
@@ -154,7 +155,7 @@ mod tests {
         ];
         for (name, rows, sheared) in cases {
             let m = matrix(*rows);
-            let placement = Placement::from_matrix(&m);
+            let placement = Placement::from_matrix(&m.as_dmat4());
             assert_eq!(placement.inner.is_some(), *sheared, "{name}");
             assert!(placement.outer.rotation.is_normalized(), "{name}");
             let product = product(&placement);
@@ -175,7 +176,7 @@ mod tests {
             [[1.0, 0.0, 0.0], [0.0, -3.0, 0.0], [0.0, 0.0, 1.0]],
         ] {
             let m = matrix(rows);
-            assert_eq!(Placement::from_matrix(&m).outer.to_matrix(), m);
+            assert_eq!(Placement::from_matrix(&m.as_dmat4()).outer.to_matrix(), m);
         }
     }
 }

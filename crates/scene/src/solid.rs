@@ -32,7 +32,7 @@ impl Object for SolidEntry {
 impl SolidEntry {
     /// The solid of a part that stands so in the object.
     pub(crate) fn for_part(&self, object_from_part: &Mat4) -> SolidTexture {
-        let solid_from_part = self.transform.matrix().as_dmat4() * object_from_part.as_dmat4();
+        let solid_from_part = self.transform.matrix() * object_from_part.as_dmat4();
         let columns = solid_from_part.to_cols_array_2d().map(|column| column.map(|number| number as f32));
         let Self { kind, octaves, colors, .. } = *self;
         SolidTexture { octaves, ..SolidTexture::new(kind, colors) }.placed(columns)

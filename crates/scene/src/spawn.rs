@@ -7,12 +7,12 @@ use std::rc::Rc;
 
 use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
-use bevy_math::{DAffine3, Mat4, Vec3};
+use bevy_math::{DAffine3, DMat4, DVec3, Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_asset::{Assets, Handle};
 use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, Legend, Material, VertexColors, ViewTolerance};
-use halfway_lighting::{Camera, Projection, Samples, Show};
-use halfway_mesh::{Bounds, Lines, Lines3d, Mesh, Mesh3d};
+use halfway_lighting::{Camera, Origin, Projection, Samples, Show, current_camera, world_place};
+use halfway_mesh::{Bounds, Lines, Lines3d, Mesh, Mesh3d, origin_of_box};
 use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::animation::Animated;
@@ -53,26 +53,37 @@ pub struct Spawned {
     pub warnings: Vec<String>,
     /// Whether the camera, an object or a light changes in time; [`AnimationPlugin`](crate::AnimationPlugin) plays it.
     pub is_animated: bool,
+    /// The [`Origin`] of the camera and of all that is near it; 0 unless the scene is far away beside its size, as at map
+    /// coordinates.
+    pub origin: DVec3,
 }
 
 impl Spawned {
     /// Moves an object to where the matrix takes it. Returns whether it could: what shears is two entities, and has to be
     /// spawned again; and so has an object that there is not.
-    pub fn place_object(&self, index: usize, world_from_object: &Mat4, world: &mut World) -> bool {
+    pub fn place_object(&self, index: usize, world_from_object: &DMat4, world: &mut World) -> bool {
         let Some(&entity) = self.objects.get(index) else { return false };
-        let Placement { outer, inner: None } = Placement::from_matrix(world_from_object) else { return false };
         if world.get::<ChildOf>(entity).is_some() {
             return false;
         }
-        world.entity_mut(entity).insert(outer);
+        let Place { placement: Placement { outer, inner: None }, origin } = self.place(world_from_object) else {
+            return false;
+        };
+        insert_place(&mut world.entity_mut(entity), outer, origin);
         true
+    }
+
+    /// A place in the world, near the scene's origin or not.
+    fn place(&self, matrix: &DMat4) -> Place {
+        Place::near(self.origin, matrix)
     }
 
     /// Gives a light the place and the colours of an entry. Returns whether it could: a light of another kind, or one that
     /// is attached to something else, has to be spawned again.
     pub fn place_light(&self, index: usize, entry: &LightEntry, world: &mut World) -> bool {
         let Some(&entity) = self.lights.get(index) else { return false };
-        let (component, transform) = place(entry);
+        let origin = origin_near(self.origin, entry);
+        let (component, transform) = place(entry, origin);
         let is_kind = world.get_entity(entity).is_ok_and(|light| component.is_kind_of(light));
         let is_attached = world.get::<ChildOf>(entity).is_some() || entry.attach != AttachEntry::World;
         let is_plain = entry.animation.is_empty() && world.get::<Animated>(entity).is_none() && entry.layers.is_none();
@@ -80,7 +91,7 @@ impl Spawned {
             return false;
         }
         let mut entity = world.entity_mut(entity);
-        entity.insert(transform);
+        insert_place(&mut entity, transform, origin);
         component.insert_into(&mut entity);
         true
     }
@@ -94,7 +105,8 @@ impl Spawned {
         }
         let Some(mut camera) = world.get_mut::<Camera>(self.camera) else { return false };
         camera.projection = entry.projection();
-        world.entity_mut(self.camera).insert(entry.transform());
+        let origin = if entry.origin() == DVec3::ZERO { DVec3::ZERO } else { self.origin };
+        insert_place(&mut world.entity_mut(self.camera), entry.transform(origin), origin);
         true
     }
 }
@@ -197,16 +209,17 @@ fn spawn_seen(
         world.insert_resource(ViewTolerance(tolerance));
     }
     let number = |number| is_shared.then_some(number);
-    let each = seen.iter().enumerate().map(|(i, seen)| spawn_camera(scene, &objects, (seen, number(i)), world));
+    let origin = seen[0].origin(&objects);
+    let each = seen.iter().enumerate().map(|(i, seen)| spawn_camera(scene, &objects, (seen, number(i)), origin, world));
     let cameras: Vec<Entity> = each.collect();
     let camera = cameras[0];
     let (mut handles, mut textures) = (Handles::new(), TextureHandles::new());
     let frames = objects
         .iter()
         .enumerate()
-        .map(|(i, (object, shape))| spawn_object(object, i, shape, (&mut handles, &mut textures), world))
+        .map(|(i, (object, shape))| spawn_object((object, i), shape, (&mut handles, &mut textures), origin, world))
         .collect::<Vec<_>>();
-    let lights = spawn_lights(scene, camera, &objects, &frames, world);
+    let lights = spawn_lights(scene, camera, (&objects, &frames), origin, world);
     let mut warnings = [scene.warnings.clone(), shapes.warnings].concat();
     hang_maps(scene, base_dir, &frames, &mut warnings, world);
     if let Some(environment) = &scene.environment {
@@ -218,7 +231,7 @@ fn spawn_seen(
         spawn_legend(title, &objects, &mut warnings, world);
     }
     let is_animated = [&cameras[..], &frames, &lights].concat().iter().any(|entity| is_animated(*entity, world));
-    Ok(Spawned { camera, cameras, objects: frames, lights, warnings, is_animated })
+    Ok(Spawned { camera, cameras, objects: frames, lights, warnings, is_animated, origin })
 }
 
 /// Whether there is somewhere to keep meshes, and lines.
@@ -240,7 +253,7 @@ enum SeenFrom {
     /// One of the scene's own, or one that frames everything.
     Entry(CameraEntry),
     /// One of a model's.
-    Model { name: String, projection: Projection, place: Transform },
+    Model { name: String, projection: Projection, world_from_camera: DMat4 },
 }
 
 impl SeenFrom {
@@ -249,7 +262,12 @@ impl SeenFrom {
         let Some(wanted) = wanted else {
             return Ok(Self::Entry(scene.all_cameras().next().cloned().unwrap_or_else(|| {
                 let [width, height] = scene.size;
-                framing_camera(outline_of(objects), width as f32 / height as f32)
+                let (origin, outline) = outline_of(objects);
+                let mut camera = framing_camera(outline, width as f32 / height as f32);
+                for point in [&mut camera.position, &mut camera.target] {
+                    *point = (DVec3::from(*point) + origin).to_array();
+                }
+                camera
             })));
         };
         let of_models = || {
@@ -290,8 +308,17 @@ impl SeenFrom {
             at: format!("camera {:?}", source.name),
             source: error,
         })?;
-        let place = camera_place(&(object.transform.matrix() * place.to_matrix()));
-        Ok(Self::Model { name: source.name.clone(), projection, place })
+        let object_from_model = DMat4::from_translation(shape.origin);
+        let world_from_camera = object.transform.matrix() * object_from_model * place.to_matrix().as_dmat4();
+        Ok(Self::Model { name: source.name.clone(), projection, world_from_camera })
+    }
+
+    /// The origin of a scene that is seen from here.
+    fn origin(&self, objects: &[Object]) -> DVec3 {
+        match self {
+            Self::Entry(entry) if entry.framing().is_none() => entry.origin(),
+            Self::Entry(_) | Self::Model { .. } => outline_of(objects).0,
+        }
     }
 }
 
@@ -300,13 +327,15 @@ fn spawn_camera(
     scene: &SceneFile,
     objects: &[Object],
     (seen, number): (&SeenFrom, Option<usize>),
+    origin: DVec3,
     world: &mut World,
 ) -> Entity {
     let default = CameraEntry::default();
     let (entry, name, projection, place) = match seen {
-        SeenFrom::Entry(entry) => (entry, entry.name.as_deref(), entry.projection(), entry.transform()),
-        SeenFrom::Model { name, projection, place } => {
-            (&default, Some(name.as_str()).filter(|name| !name.is_empty()), *projection, *place)
+        SeenFrom::Entry(entry) => (entry, entry.name.as_deref(), entry.projection(), entry.transform(origin)),
+        SeenFrom::Model { name, projection, world_from_camera } => {
+            let place = camera_place(&(DMat4::from_translation(-origin) * *world_from_camera).as_mat4());
+            (&default, Some(name.as_str()).filter(|name| !name.is_empty()), *projection, place)
         }
     };
     let camera = Camera {
@@ -327,12 +356,13 @@ fn spawn_camera(
         SeenFrom::Model { .. } => None,
     };
     let (camera, place) = match framing {
-        Some(framing) => framing.camera(camera, outline_of(objects), width as f32 / height as f32),
+        Some(framing) => framing.camera(camera, outline_of(objects).1, width as f32 / height as f32),
         None => (camera, place),
     };
     let view = (entry.shading.unwrap_or(scene.shading), entry.reflectance.unwrap_or(scene.reflectance));
     let name = Name::new(name.unwrap_or("camera").to_owned());
-    let mut entity = world.spawn((name, camera, place, view));
+    let mut entity = world.spawn((name, camera, view));
+    insert_place(&mut entity, place, origin);
     insert_some(&mut entity, Animated::camera(entry));
     insert_some(&mut entity, scene.edges.as_ref().map(EdgesEntry::component));
     insert_some(&mut entity, entry.tolerance);
@@ -352,16 +382,19 @@ fn is_animated(entity: Entity, world: &World) -> bool {
 /// Above this number of vertices the corners of boxes stand for them.
 const FRAMED_VERTICES: usize = 1 << 20;
 
-/// The vertices of all parts in the world, or, where they are many, the corners of the boxes around the parts.
-fn outline_of(objects: &[Object]) -> Vec<Vec3> {
+/// The vertices of all parts in the world, or, where they are many, the corners of the boxes around the parts; and the
+/// origin from which they are counted.
+fn outline_of(objects: &[Object]) -> (DVec3, Vec<Vec3>) {
     let mut outlined = Vec::new();
     for (object, shape) in objects {
-        let world_from_object = object.transform.matrix().as_dmat4();
+        let world_from_object = object.transform.matrix() * DMat4::from_translation(shape.origin);
         let place = |object_from_part: &Mat4| DAffine3::from_mat4(world_from_object * object_from_part.as_dmat4());
         outlined.extend(shape.parts.iter().map(|part| (Outlined::Mesh(&part.mesh), place(&part.object_from_part))));
         outlined.extend(shape.lines.iter().map(|part| (Outlined::Lines(&part.lines), place(&part.object_from_part))));
     }
-    outline_around(&outlined)
+    let (min, max) = box_around(&outlined);
+    let origin = origin_of_box(min, max);
+    (origin, outline_around(&outlined, origin))
 }
 
 /// A shape that is framed.
@@ -388,7 +421,12 @@ impl Outlined<'_> {
 
     fn extend(self, outline: &mut Vec<Vec3>, to_world: impl Fn(Vec3) -> Vec3) {
         match self {
-            Self::Mesh(mesh) => outline.extend(mesh.positions().iter().copied().map(to_world)),
+            Self::Mesh(mesh) => {
+                // A vertex that no triangle uses counts only where it makes no difference.
+                let Bounds { min, max } = mesh.bounds();
+                let drawn = mesh.positions().iter().filter(|p| p.cmpge(min).all() && p.cmple(max).all());
+                outline.extend(drawn.copied().map(to_world));
+            }
             Self::Lines(lines) => {
                 let used = lines.segments().as_flattened().iter().chain(lines.points());
                 outline.extend(used.map(|&vertex| to_world(lines.positions()[vertex as usize])));
@@ -397,16 +435,27 @@ impl Outlined<'_> {
     }
 }
 
-/// The vertices of all shapes in the world, or, where they are many, the corners of the boxes around them.
-fn outline_around(shapes: &[(Outlined, DAffine3)]) -> Vec<Vec3> {
+/// The box around the boxes of all shapes in the world.
+fn box_around(shapes: &[(Outlined, DAffine3)]) -> (DVec3, DVec3) {
+    let of_shape = |(shape, world_from_shape): &(Outlined, DAffine3)| {
+        let world_from_shape = *world_from_shape;
+        corners(shape.bounds()).map(move |corner| world_from_shape.transform_point3(corner.as_dvec3()))
+    };
+    let corners = shapes.iter().flat_map(of_shape);
+    corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
+}
+
+/// The vertices of all shapes in the world, or, where they are many, the corners of the boxes around them; counted from
+/// an origin.
+fn outline_around(shapes: &[(Outlined, DAffine3)], origin: DVec3) -> Vec<Vec3> {
     let vertices: usize = shapes.iter().map(|(shape, _)| shape.count()).sum();
     let mut outline = Vec::new();
     for (shape, world_from_shape) in shapes {
-        let to_world = |p: Vec3| world_from_shape.transform_point3(p.as_dvec3()).as_vec3();
+        let to_world = |p: Vec3| (world_from_shape.transform_point3(p.as_dvec3()) - origin).as_vec3();
         if vertices <= FRAMED_VERTICES {
             shape.extend(&mut outline, to_world);
         } else {
-            outline.extend(corners(&shape.bounds()).map(to_world));
+            outline.extend(corners(shape.bounds()).map(to_world));
         }
     }
     outline.retain(|point| point.is_finite());
@@ -414,7 +463,8 @@ fn outline_around(shapes: &[(Outlined, DAffine3)]) -> Vec<Vec3> {
 }
 
 /// The vertices of all meshes, lines and points in a world, placed by their `Transform`s and those above them, or, where
-/// they are more than a million, the corners of the boxes around the shapes: what a [`Framing`](halfway_lighting::Framing) frames.
+/// they are more than a million, the corners of the boxes around the shapes: what a [`Framing`](halfway_lighting::Framing)
+/// frames. They are counted from the camera's [`Origin`], where it has one.
 ///
 /// ```
 /// use bevy_app::App;
@@ -433,53 +483,80 @@ fn outline_around(shapes: &[(Outlined, DAffine3)]) -> Vec<Vec3> {
 /// app.world_mut().spawn(camera);
 /// ```
 pub fn outline(world: &mut World) -> Vec<Vec3> {
+    let camera = current_camera(world).ok().and_then(|camera| world.get::<Origin>(camera));
+    let origin = camera.copied().unwrap_or_default().0;
     let mut objects = world.query::<(Entity, &Mesh3d)>();
     let mut strokes = world.query::<(Entity, &Lines3d)>();
     let (meshes, lines) = (world.get_resource::<Assets<Mesh>>(), world.get_resource::<Assets<Lines>>());
     let of_mesh =
-        |(entity, mesh): (Entity, &Mesh3d)| Some((Outlined::Mesh(meshes?.get(&mesh.0)?), world_from(entity, world)));
-    let of_lines =
-        |(entity, shown): (Entity, &Lines3d)| Some((Outlined::Lines(lines?.get(&shown.0)?), world_from(entity, world)));
+        |(entity, mesh): (Entity, &Mesh3d)| Some((Outlined::Mesh(meshes?.get(&mesh.0)?), world_place(entity, world)));
+    let of_lines = |(entity, shown): (Entity, &Lines3d)| {
+        Some((Outlined::Lines(lines?.get(&shown.0)?), world_place(entity, world)))
+    };
     let shapes: Vec<_> =
         objects.iter(world).filter_map(of_mesh).chain(strokes.iter(world).filter_map(of_lines)).collect();
-    outline_around(&shapes)
+    outline_around(&shapes, origin)
 }
 
-/// The placement of an entity by its transform and those of the entities above.
-fn world_from(entity: Entity, world: &World) -> DAffine3 {
-    let (mut at, mut placement) = (Some(entity), DAffine3::IDENTITY);
-    while let Some(entity) = at {
-        if let Some(transform) = world.get::<Transform>(entity) {
-            placement = transform.compute_affine().as_daffine3() * placement;
-        }
-        at = world.get::<ChildOf>(entity).map(ChildOf::parent);
-    }
-    placement
-}
-
-fn corners(bounds: &Bounds) -> impl Iterator<Item = Vec3> {
-    let Bounds { min, max } = *bounds;
+fn corners(Bounds { min, max }: Bounds) -> impl Iterator<Item = Vec3> {
     (0..8).map(move |i| {
         let pick = |axis: usize| if i & (1 << axis) == 0 { min[axis] } else { max[axis] };
         Vec3::new(pick(0), pick(1), pick(2))
     })
 }
 
+/// A place in the world: as transforms, counted from an origin.
+struct Place {
+    placement: Placement,
+    origin: DVec3,
+}
+
+impl Place {
+    /// Counted from the origin of the scene, if it is nearer to that than to 0.
+    fn near(origin: DVec3, matrix: &DMat4) -> Self {
+        let translation = matrix.w_axis.truncate();
+        let origin = if translation.distance(origin) < translation.length() { origin } else { DVec3::ZERO };
+        let counted = DMat4 { w_axis: (translation - origin).extend(1.0), ..*matrix };
+        Self { placement: Placement::from_matrix(&counted), origin }
+    }
+}
+
+/// The origin from which the position of a light is counted: that of the scene, if it is nearer to that than to 0.
+fn origin_near(origin: DVec3, entry: &LightEntry) -> DVec3 {
+    let [x, y, z, w] = entry.position;
+    let point = DVec3::new(x, y, z) / w;
+    let is_near = entry.attach == AttachEntry::World && w != 0.0 && point.distance(origin) < point.length();
+    if is_near { origin } else { DVec3::ZERO }
+}
+
+/// Places an entity. Without an origin there is no component either.
+fn insert_place(entity: &mut EntityWorldMut, transform: Transform, origin: DVec3) {
+    entity.insert(transform);
+    if origin != DVec3::ZERO {
+        entity.insert(Origin(origin));
+    } else if entity.contains::<Origin>() {
+        entity.remove::<Origin>();
+    }
+}
+
 /// Spawns an object and gives the entity of its frame.
 fn spawn_object(
-    object: &ObjectEntry,
-    index: usize,
+    (object, index): (&ObjectEntry, usize),
     shape: &ObjectShape,
     (handles, textures): (&mut Handles, &mut TextureHandles),
+    origin: DVec3,
     world: &mut World,
 ) -> Entity {
     let name = object.name.clone().unwrap_or_else(|| format!("objects[{index}]"));
-    let frame = spawn_frame(&Placement::from_matrix(&object.transform.matrix()), None, &name, world);
+    let frame = spawn_frame(&Place::near(origin, &object.transform.matrix()), None, &name, world);
+    let is_near = shape.origin == DVec3::ZERO;
     match (shape.parts.as_slice(), shape.lines.as_slice()) {
-        ([part], []) if part.object_from_part == Mat4::IDENTITY => {
+        ([part], []) if is_near && part.object_from_part == Mat4::IDENTITY => {
             dress_whole(object, part, (handles, textures), frame, world);
         }
-        ([], [lines]) if lines.object_from_part == Mat4::IDENTITY => dress_lines(object, lines, frame, world),
+        ([], [lines]) if is_near && lines.object_from_part == Mat4::IDENTITY => {
+            dress_lines(object, lines, frame, world)
+        }
         _ => {
             spawn_parts(object, frame, shape, (handles, textures), world);
         }
@@ -497,16 +574,20 @@ pub(crate) fn spawn_parts(
     (handles, textures): (&mut Handles, &mut TextureHandles),
     world: &mut World,
 ) -> Vec<Entity> {
+    let place = |object_from_part: &Mat4| {
+        let placement = Placement::from_matrix(&object_from_part.as_dmat4());
+        Place { placement, origin: shape.origin }
+    };
     let spawn_part = |(i, part): (usize, &ShapePart)| {
         let name = if part.name.is_empty() { format!("parts[{i}]") } else { part.name.clone() };
-        let entity = spawn_frame(&Placement::from_matrix(&part.object_from_part), Some(frame), &name, world);
+        let entity = spawn_frame(&place(&part.object_from_part), Some(frame), &name, world);
         dress_whole(object, part, (handles, textures), entity, world);
         entity
     };
     let parts: Vec<Entity> = shape.parts.iter().enumerate().map(spawn_part).collect();
     let spawn_lines = |(i, lines): (usize, &ShapeLines)| {
         let name = if lines.name.is_empty() { format!("lines[{i}]") } else { lines.name.clone() };
-        let entity = spawn_frame(&Placement::from_matrix(&lines.object_from_part), Some(frame), &name, world);
+        let entity = spawn_frame(&place(&lines.object_from_part), Some(frame), &name, world);
         dress_lines(object, lines, entity, world);
         entity
     };
@@ -560,14 +641,16 @@ fn dress_whole(
 }
 
 /// An entity at a placement; the inner of two where it shears.
-fn spawn_frame(placement: &Placement, parent: Option<Entity>, name: &str, world: &mut World) -> Entity {
-    let mut spawn_at = |transform: Transform, parent: Option<Entity>| {
-        let mut entity = world.spawn(transform);
+fn spawn_frame(place: &Place, parent: Option<Entity>, name: &str, world: &mut World) -> Entity {
+    let Place { placement, origin } = place;
+    let mut spawn_at = |transform: Transform, origin: DVec3, parent: Option<Entity>| {
+        let mut entity = world.spawn_empty();
+        insert_place(&mut entity, transform, origin);
         insert_some(&mut entity, parent.map(ChildOf));
         entity.id()
     };
-    let outer = spawn_at(placement.outer, parent);
-    let frame = placement.inner.map_or(outer, |inner| spawn_at(inner, Some(outer)));
+    let outer = spawn_at(placement.outer, *origin, parent);
+    let frame = placement.inner.map_or(outer, |inner| spawn_at(inner, DVec3::ZERO, Some(outer)));
     world.entity_mut(frame).insert(Name::new(name.to_owned()));
     frame
 }
@@ -677,8 +760,8 @@ fn spawn_legend(title: &str, objects: &[Object], warnings: &mut Vec<String>, wor
 fn spawn_lights(
     scene: &SceneFile,
     camera: Entity,
-    objects: &[Object],
-    frames: &[Entity],
+    (objects, frames): (&[Object], &[Entity]),
+    origin: DVec3,
     world: &mut World,
 ) -> Vec<Entity> {
     let mut entries = scene.lights.as_ref().map(LightsEntry::entries).unwrap_or_default();
@@ -695,9 +778,10 @@ fn spawn_lights(
             AttachEntry::Camera => Some(camera),
             AttachEntry::Object(object) => scene.object_index(object).and_then(|index| frames.get(index)).copied(),
         };
-        let (component, transform) = place(entry);
+        let origin = origin_near(origin, entry);
+        let (component, transform) = place(entry, origin);
         let name = entry.name.clone().unwrap_or_else(|| format!("lights[{i}]"));
-        let light = spawn_light(name, component, transform, parent, world);
+        let light = spawn_light(name, component, (transform, origin), parent, world);
         insert_some(&mut world.entity_mut(light), Animated::light(entry));
         insert_layers(&mut world.entity_mut(light), entry.layers.as_ref());
         light
@@ -711,7 +795,8 @@ pub(crate) fn spawn_own_lights(objects: &[Object], frames: &[Entity], world: &mu
     for ((_, shape), &frame) in objects.iter().zip(frames) {
         for light in &shape.lights {
             let name = if light.name.is_empty() { "light".to_owned() } else { light.name.clone() };
-            lights.push(spawn_light(name, light.light, light.object_from_light, Some(frame), world));
+            let place = (light.object_from_light, shape.origin);
+            lights.push(spawn_light(name, light.light, place, Some(frame), world));
         }
     }
     lights
@@ -720,11 +805,12 @@ pub(crate) fn spawn_own_lights(objects: &[Object], frames: &[Entity], world: &mu
 fn spawn_light(
     name: String,
     component: LightComponent,
-    transform: Transform,
+    (transform, origin): (Transform, DVec3),
     parent: Option<Entity>,
     world: &mut World,
 ) -> Entity {
-    let mut entity = world.spawn((Name::new(name), transform));
+    let mut entity = world.spawn(Name::new(name));
+    insert_place(&mut entity, transform, origin);
     component.insert_into(&mut entity);
     insert_some(&mut entity, parent.map(ChildOf));
     entity.id()

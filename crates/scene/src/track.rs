@@ -39,7 +39,7 @@ pub struct KeyFrame {
     /// In seconds, 0 or more.
     pub time: f32,
     /// The numbers of the key's value.
-    pub value: Vec<f32>,
+    pub value: Vec<f64>,
 }
 
 /// The keys that change: `translation`, `rotation` and `scale` of an object's transform, and keys of the same names of
@@ -163,8 +163,8 @@ impl Entry for KeyFrame {
     fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let value = Value::deserialize(deserializer)?;
         let numbers = |value: &Value| match value {
-            Value::Array(list) => list.iter().map(single).collect::<Option<Vec<f32>>>(),
-            one => single(one).map(|one| vec![one]),
+            Value::Array(list) => list.iter().map(Value::as_f64).collect::<Option<Vec<f64>>>(),
+            one => one.as_f64().map(|one| vec![one]),
         };
         let pair = value.as_array().and_then(|pair| match pair.as_slice() {
             [time, value] => Some(Self { time: single(time)?, value: numbers(value)? }),
@@ -187,7 +187,8 @@ impl Entry for KeyFrame {
     }
 
     fn schema(_: &mut Map<String, Value>, _: &Limits) -> Value {
-        let any = number(&Range::FINITE);
+        let mut any = number(&Range::FINITE);
+        any["format"] = json!("double");
         let value = json!({ "anyOf": [any, { "type": "array", "items": any, "minItems": 3, "maxItems": 4 }] });
         let pair = [number(&Range::NON_NEGATIVE), value];
         json!({ "type": "array", "prefixItems": pair, "items": false, "minItems": 2, "maxItems": 2 })
@@ -234,14 +235,14 @@ impl TrackEntry {
                 return wrong(format!("has {} numbers; expected {numbers}, as `{name}` has", value.len()));
             }
             let range = self.of.range();
-            if let Some(number) = value.iter().find(|number| !range.contains(**number)) {
+            if let Some(number) = value.iter().find(|number| !range.contains(**number as f32)) {
                 return wrong(format!("has {number}; expected of `{name}` {}", range.expected));
             }
             if self.of.is_no_zero() && value.iter().all(|number| *number == 0.0) {
                 return wrong("is [0, 0, 0]; expected a direction, of any length above 0".to_owned());
             }
             if let (AnimatedKey::Rotation, &[x, y, z, w]) = (self.of, value.as_slice()) {
-                unit_rotation([x, y, z, w]).or_else(wrong)?;
+                unit_rotation([x, y, z, w].map(|number| number as f32)).or_else(wrong)?;
             }
         }
         Ok(())
@@ -262,7 +263,7 @@ impl TrackEntry {
     /// assert_eq!(track.at(2.5), track.at(0.5));
     /// # Ok::<(), halfway_scene::SceneError>(())
     /// ```
-    pub fn at(&self, time: f64) -> [f32; 4] {
+    pub fn at(&self, time: f64) -> [f64; 4] {
         let (Some(first), Some(last)) = (self.keys.first(), self.keys.last()) else { return [0.0; 4] };
         let period = f64::from(last.time);
         let time = if self.repeat && period > 0.0 { time.rem_euclid(period) } else { time };
@@ -277,7 +278,7 @@ impl TrackEntry {
         };
         let [a, b] = [before, after].map(|key| {
             let mut four = [0.0; 4];
-            four.iter_mut().zip(&key.value).for_each(|(to, from)| *to = f64::from(*from));
+            four.iter_mut().zip(&key.value).for_each(|(to, from)| *to = *from);
             DVec4::from(four)
         });
         let value = if self.of == AnimatedKey::Rotation {
@@ -286,7 +287,7 @@ impl TrackEntry {
         } else {
             a + (b - a) * share
         };
-        value.to_array().map(|number| number as f32)
+        value.to_array()
     }
 }
 
@@ -295,7 +296,7 @@ pub(crate) trait Animate: Clone {
     /// How many numbers a key has; else what the entry is, and why it has no such key.
     fn count(&self, key: AnimatedKey) -> Result<usize, String>;
     /// Sets a key.
-    fn set(&mut self, key: AnimatedKey, value: [f32; 4]);
+    fn set(&mut self, key: AnimatedKey, value: [f64; 4]);
 
     /// The entry at a time in seconds.
     fn at(&self, tracks: &[TrackEntry], time: f64) -> Self {
@@ -322,6 +323,10 @@ pub(crate) trait Animate: Clone {
     }
 }
 
-pub(crate) fn three([x, y, z, _]: [f32; 4]) -> [f32; 3] {
+pub(crate) fn three([x, y, z, _]: [f64; 4]) -> [f64; 3] {
     [x, y, z]
+}
+
+pub(crate) fn single_precision<const N: usize>(numbers: [f64; N]) -> [f32; N] {
+    numbers.map(|number| number as f32)
 }

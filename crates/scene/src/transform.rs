@@ -1,13 +1,13 @@
 //! Transforms in scene files.
 
-use bevy_math::{DVec4, Mat4, Quat, Vec3};
+use bevy_math::{DMat4, DVec3, DVec4, Mat4, Quat, Vec3};
 use bevy_transform::components::Transform;
 use serde_json::{Map, Value, json};
 
 use crate::check::{Check, KeyProblem, Limits, Within, unit_rotation};
 use crate::entry::Entry;
 use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, keys};
-use crate::track::{Animate, AnimatedKey, three};
+use crate::track::{Animate, AnimatedKey, single_precision, three};
 
 /// Where something is: in parts, or as a matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ keys! {
     pub struct TransformParts {
         [optional]
         /// Moved by.
-        translation: [f32; 3] = [0.0; 3],
+        translation: [f64; 3] = [0.0; 3],
         /// Turned by the quaternion [x, y, z, w]. Its length is 1 within 2 %, and made exactly 1.
         rotation: [f32; 4] = [0.0, 0.0, 0.0, 1.0],
         /// Stretched along x, y and z; negative mirrors.
@@ -39,7 +39,7 @@ keys! {
         [required]
         /// 16 numbers column by column: the images of x, y and z and of the origin. The last row, numbers 4, 8, 12 and
         /// 16, is 0, 0, 0, 1.
-        matrix: [f32; 16],
+        matrix: [f64; 16],
     }
 }
 
@@ -69,20 +69,24 @@ impl Default for TransformEntry {
 }
 
 impl TransformEntry {
-    /// As a component, of a transform in parts.
-    pub(crate) fn parts(&self) -> Option<Transform> {
+    /// As a component, of a transform in parts that is counted from an origin.
+    pub(crate) fn parts(&self, origin: DVec3) -> Option<Transform> {
         let Self::Parts(TransformParts { translation, rotation, scale }) = self else { return None };
-        let [translation, scale] = [translation, scale].map(|v| Vec3::from(*v));
-        Some(Transform { translation, rotation: unit(*rotation), scale })
+        let translation = (DVec3::from(*translation) - origin).as_vec3();
+        Some(Transform { translation, rotation: unit(*rotation), scale: Vec3::from(*scale) })
     }
 
-    /// The matrix that takes the object into the world.
-    pub fn matrix(&self) -> Mat4 {
+    /// The matrix that takes the object into the world: translations in `f64`, all else as `f32` has it.
+    pub fn matrix(&self) -> DMat4 {
         match self {
             Self::Parts(TransformParts { translation, rotation, scale }) => {
-                Mat4::from_scale_rotation_translation(Vec3::from(*scale), unit(*rotation), Vec3::from(*translation))
+                let turned = Mat4::from_scale_rotation_translation(Vec3::from(*scale), unit(*rotation), Vec3::ZERO);
+                DMat4 { w_axis: DVec3::from(*translation).extend(1.0), ..turned.as_dmat4() }
             }
-            Self::Matrix(TransformMatrix { matrix }) => Mat4::from_cols_array(matrix),
+            Self::Matrix(TransformMatrix { matrix }) => {
+                let matrix = DMat4::from_cols_array(matrix);
+                DMat4 { w_axis: matrix.w_axis, ..matrix.as_mat4().as_dmat4() }
+            }
         }
     }
 }
@@ -158,12 +162,12 @@ impl Animate for TransformEntry {
         }
     }
 
-    fn set(&mut self, key: AnimatedKey, value: [f32; 4]) {
+    fn set(&mut self, key: AnimatedKey, value: [f64; 4]) {
         let Self::Parts(parts) = self else { return };
         match key {
             AnimatedKey::Translation => parts.translation = three(value),
-            AnimatedKey::Rotation => parts.rotation = value,
-            AnimatedKey::Scale => parts.scale = three(value),
+            AnimatedKey::Rotation => parts.rotation = single_precision(value),
+            AnimatedKey::Scale => parts.scale = single_precision(three(value)),
             _ => {}
         }
     }

@@ -9,10 +9,12 @@ use halfway_lighting::{
     VertexColors, View, Viewer,
 };
 
+use halfway_mesh::origin_of_box;
+
 use crate::check::{Check, KeyProblem, Limits, direction, in_range};
 use crate::described;
 use crate::keys::{Fill, Key, Keys, Object, Presence, Visit, Words, keys, named_words, words};
-use crate::track::{Animate, AnimatedKey, FIELD_OF_VIEW, TrackEntry, three};
+use crate::track::{Animate, AnimatedKey, FIELD_OF_VIEW, TrackEntry, single_precision, three};
 use crate::viewport::{LAYERS, ViewportEntry};
 
 words! {
@@ -218,9 +220,9 @@ keys! {
         /// Its name; no other camera, light or object has the same. null: none.
         name: Option<String> = None,
         /// Where the camera stands.
-        position: [f32; 3] = [0.0, 0.0, 3.0],
+        position: [f64; 3] = [0.0, 0.0, 3.0],
         /// The point that the camera looks at, in the middle of the picture unless that is shifted; not `position`.
-        target: [f32; 3] = [0.0; 3],
+        target: [f64; 3] = [0.0; 3],
         /// The direction that is up in the picture; not along the line of sight. Any length above 0.
         up: [f32; 3] = [0.0, 1.0, 0.0],
         /// Vertical field of view, in degrees above 0 and below 180.
@@ -314,7 +316,7 @@ impl Object for CameraEntry {
         if self.view.is_some() {
             return Ok(());
         }
-        if Vec3::from(self.position) == Vec3::from(self.target) {
+        if DVec3::from(self.position) == DVec3::from(self.target) {
             return Err(KeyProblem::new("target", "is where the camera stands; expected another point"));
         }
         if self.axes().is_none() {
@@ -377,7 +379,7 @@ impl CameraEntry {
             (None, None) => Projection::Perspective { fov_y: self.fov_y_deg.to_radians(), near, film },
         };
         if self.ortho && self.height.is_none() {
-            let distance = Vec3::from(self.position).distance(Vec3::from(self.target));
+            let distance = DVec3::from(self.position).distance(DVec3::from(self.target)) as f32;
             return Projection::orthographic(projection.height_at(distance) / self.zoom);
         }
         projection.zoomed(self.zoom)
@@ -394,9 +396,16 @@ impl CameraEntry {
         Some(Framing { rotation, fit: self.fit.unwrap_or(Framing::FIT), zoom: self.zoom })
     }
 
-    /// Where it stands and looks.
-    pub(crate) fn transform(&self) -> Transform {
-        Transform::from_translation(self.position.into()).with_rotation(self.rotation())
+    /// The point from which its position and its target are counted, so that `f32` keeps them; see [`origin_of_box`].
+    pub(crate) fn origin(&self) -> DVec3 {
+        let [position, target] = [self.position, self.target].map(DVec3::from);
+        origin_of_box(position.min(target), position.max(target))
+    }
+
+    /// Where it stands, counted from an origin, and looks.
+    pub(crate) fn transform(&self, origin: DVec3) -> Transform {
+        let translation = (DVec3::from(self.position) - origin).as_vec3();
+        Transform::from_translation(translation).with_rotation(self.rotation())
     }
 
     /// The camera's rotation where `position` and `target` give it.
@@ -410,7 +419,10 @@ impl CameraEntry {
     /// The camera's right, up and back in world space, of unit length and perpendicular; `None` where `position` and
     /// `target` or `up` do not say which they are.
     pub(crate) fn axes(&self) -> Option<[DVec3; 3]> {
-        let [position, target, up] = [self.position, self.target, self.up].map(|v| Vec3::from(v).as_dvec3());
+        let origin = self.origin();
+        let counted = |point: [f64; 3]| (DVec3::from(point) - origin).as_vec3().as_dvec3();
+        let [position, target] = [self.position, self.target].map(counted);
+        let up = Vec3::from(self.up).as_dvec3();
         let back = (position - target).try_normalize()?;
         let right = up.try_normalize()?.cross(back);
         // The sine of the angle between `up` and the line of sight; below this, rounding alone picks the roll.
@@ -432,13 +444,13 @@ impl Animate for CameraEntry {
         }
     }
 
-    fn set(&mut self, key: AnimatedKey, value: [f32; 4]) {
+    fn set(&mut self, key: AnimatedKey, value: [f64; 4]) {
         match key {
             AnimatedKey::Position => self.position = three(value),
             AnimatedKey::Target => self.target = three(value),
-            AnimatedKey::Up => self.up = three(value),
-            AnimatedKey::FovYDeg => self.fov_y_deg = value[0],
-            AnimatedKey::Height => self.height = Some(value[0]),
+            AnimatedKey::Up => self.up = single_precision(three(value)),
+            AnimatedKey::FovYDeg => self.fov_y_deg = value[0] as f32,
+            AnimatedKey::Height => self.height = Some(value[0] as f32),
             _ => {}
         }
     }

@@ -83,6 +83,17 @@ def floats(values: object, name: str, columns: int | None) -> Floats:
     return array
 
 
+def counted(vertices: object, name: str) -> tuple[Floats, list[float]]:
+    """Vertices as floats, and the point that they are counted from: 0 unless they are far away beside their size."""
+    try:
+        array = np.asarray(vertices)
+    except ValueError:
+        array = np.zeros(0)
+    far = array.dtype.kind in "fiu" and array.dtype.itemsize > 4 and array.ndim == 2 and array.shape[1:] == (3,) and array.size
+    origin = list(_halfway.origin_of_box(array.min(axis=0).tolist(), array.max(axis=0).tolist())) if far else [0.0] * 3
+    return floats(array - origin if any(origin) else vertices, name, 3), origin
+
+
 def triangles(faces: object, vertices: int) -> tuple[Indices, npt.NDArray[np.intp] | None]:
     """Triangles as indices, and, where quadrilaterals were cut in two, the number of the face that each belongs to."""
     try:
@@ -139,10 +150,10 @@ def color_text(color: object, name: str) -> object:
     return "rgb({:.7f}% {:.7f}% {:.7f}%)".format(*encoded)
 
 
-def matrix(pose: object, name: str) -> Floats:
+def matrix(pose: object, name: str) -> npt.NDArray[np.float64]:
     """A matrix of 4 by 4 that moves, turns and scales."""
     try:
-        array = np.asarray(pose, dtype=np.float32)
+        array = np.array(pose, dtype=np.float64)
     except (TypeError, ValueError):
         raise TypeError(f"{name}: expected a matrix of shape (4, 4)") from None
     if array.shape != (4, 4):

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _halfway
-from ._arguments import Floats, Indices, floats, matrix, triangles
+from ._arguments import Floats, Indices, counted, floats, matrix, triangles
 from ._picture import Picture
 
 
@@ -40,7 +40,7 @@ class Mesh:
         properties: Mapping[str, npt.ArrayLike] | None = None,
         name: str = "mesh",
     ) -> None:
-        positions = floats(vertices, "vertices", 3)
+        positions, origin = counted(vertices, "vertices")
         indices, of_face = triangles(faces, len(positions))
         given_faces = len(indices) if of_face is None else len(indices) // 2
         per_vertex = {
@@ -71,7 +71,7 @@ class Mesh:
             raise ValueError("image: expected uvs beside it, which say where it lies on the mesh")
         normals_, uvs_, colors_ = (None if values is None else np.ascontiguousarray(values, np.float32)
                                    for values in per_vertex.values())
-        self._mesh = _halfway.Mesh(name, positions, indices, normals_, uvs_, colors_, numbers, encoded)
+        self._mesh = _halfway.Mesh(name, positions, indices, normals_, uvs_, colors_, numbers, encoded, origin)
         self._shown: Any = None
 
     @classmethod
@@ -84,15 +84,18 @@ class Mesh:
         return mesh
 
     @property
-    def bounds(self) -> Floats:
-        """The least and the greatest coordinates, of shape (2, 3)."""
+    def bounds(self) -> npt.NDArray[np.float64]:
+        """The least and the greatest coordinates of what is drawn, of shape (2, 3)."""
         found = self._mesh.bounds()
-        return np.array(found if found else [[0, 0, 0], [0, 0, 0]], np.float32)
+        return np.array(found if found else [[0, 0, 0], [0, 0, 0]], np.float64) + self._mesh.origin()
 
     @property
-    def vertices(self) -> Floats:
-        """The vertices, of shape (n, 3); of a model of several parts, those of all."""
-        return np.frombuffer(self._mesh.arrays()[0], np.float32).reshape(-1, 3)
+    def vertices(self) -> npt.NDArray[np.floating[Any]]:
+        """The vertices, of shape (n, 3); of a model of several parts, those of all. They are of type `float32`, or
+        `float64` where they are so far away that `float32` would round them."""
+        vertices = np.frombuffer(self._mesh.arrays()[0], np.float32).reshape(-1, 3)
+        origin = self._mesh.origin()
+        return vertices.astype(np.float64) + origin if any(origin) else vertices
 
     @property
     def faces(self) -> Indices:

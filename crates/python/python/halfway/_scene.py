@@ -72,11 +72,11 @@ class SceneObject(Entry):
     _kind = "object"
 
     @property
-    def pose(self) -> npt.NDArray[np.float32]:
+    def pose(self) -> npt.NDArray[np.float64]:
         """The matrix of 4 by 4 that takes it into the world."""
         given = self._data.get("transform", {})
         if "matrix" in given:
-            return np.array(given["matrix"], np.float32).reshape(4, 4).T
+            return np.array(given["matrix"], np.float64).reshape(4, 4).T
         return _of_parts(given)
 
     @pose.setter
@@ -84,7 +84,7 @@ class SceneObject(Entry):
         self._scene.place([self], [pose])
 
     @property
-    def position(self) -> npt.NDArray[np.float32]:
+    def position(self) -> npt.NDArray[np.float64]:
         """Where it stands."""
         return self.pose[:3, 3]
 
@@ -101,18 +101,18 @@ class SceneLight(Entry):
     _kind = "light"
 
     @property
-    def position(self) -> npt.NDArray[np.float32]:
+    def position(self) -> npt.NDArray[np.float64]:
         """Where it is."""
-        return np.array(self._data.get("position", (2, 0, 2)), np.float32)
+        return np.array(self._data.get("position", (2, 0, 2)), np.float64)
 
     @position.setter
     def position(self, position: Any) -> None:
         self.set(position=numbers(position, "position", 3))
 
     @property
-    def direction(self) -> npt.NDArray[np.float32]:
+    def direction(self) -> npt.NDArray[np.float64]:
         """The way its light travels."""
-        return np.array(self._data.get("direction", (0, -1, 0)), np.float32)
+        return np.array(self._data.get("direction", (0, -1, 0)), np.float64)
 
     @direction.setter
     def direction(self, direction: Any) -> None:
@@ -130,18 +130,18 @@ class SceneCamera(Entry):
     _kind = "camera"
 
     @property
-    def position(self) -> npt.NDArray[np.float32]:
+    def position(self) -> npt.NDArray[np.float64]:
         """Where it stands."""
-        return np.array(self._data.get("position", (0, 0, 3)), np.float32)
+        return np.array(self._data.get("position", (0, 0, 3)), np.float64)
 
     @position.setter
     def position(self, position: Any) -> None:
         self.set(view=None, position=numbers(position, "position", 3))
 
     @property
-    def target(self) -> npt.NDArray[np.float32]:
+    def target(self) -> npt.NDArray[np.float64]:
         """The point that it looks at."""
-        return np.array(self._data.get("target", (0, 0, 0)), np.float32)
+        return np.array(self._data.get("target", (0, 0, 0)), np.float64)
 
     @target.setter
     def target(self, target: Any) -> None:
@@ -159,14 +159,14 @@ class SceneCamera(Entry):
             self._scene._forget()
 
 
-def _of_parts(given: Mapping[str, Any]) -> npt.NDArray[np.float32]:
+def _of_parts(given: Mapping[str, Any]) -> npt.NDArray[np.float64]:
     x, y, z, w = given.get("rotation", (0, 0, 0, 1))
     turn = np.array([
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
     ])
-    pose = np.eye(4, dtype=np.float32)
+    pose = np.eye(4)
     pose[:3, :3] = turn * np.array(given.get("scale", (1, 1, 1)))
     pose[:3, 3] = given.get("translation", (0, 0, 0))
     return pose
@@ -344,7 +344,7 @@ class Scene:
 
     def place(self, objects: Sequence[SceneObject], poses: Sequence[npt.ArrayLike] | npt.NDArray[Any]) -> None:
         """Moves objects, each to where its matrix of 4 by 4 takes it: the fastest way to move many."""
-        given = np.asarray(poses, np.float32)
+        given = np.asarray(poses, np.float64)
         if given.shape != (len(objects), 4, 4):
             raise ValueError(f"poses: shape {given.shape}; expected ({len(objects)}, 4, 4)")
         if not np.isfinite(given).all():

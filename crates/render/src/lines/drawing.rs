@@ -64,7 +64,11 @@ impl<'a> Drawing<'a> {
         }
         let SurfacePoint { face_normal, position, depth, .. } = self.surfaces.at(x, y)?;
         let normal = self.surfaces.in_eye_space(face_normal);
-        let plane = SeenPlane { normal, point: self.eye_from_world().transform_point3(position), depth };
+        let plane = SeenPlane {
+            normal,
+            point: self.eye_from_world().transform_point3(position - self.surfaces.origin()),
+            depth,
+        };
         self.kept.borrow_mut()[place] = (pixel, plane);
         Some(plane)
     }

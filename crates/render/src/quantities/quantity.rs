@@ -18,7 +18,7 @@ pub enum Quantity {
     Depth,
     /// The distance from the camera, in world units.
     Distance,
-    /// The point in world space.
+    /// The point in world space, counted from the camera's [origin](Surfaces::origin) where it has one.
     Position,
     /// The interpolated unit normal in world space, of the side that is seen.
     Normal,
@@ -49,7 +49,12 @@ impl Choices for Quantity {
     const CHOICES: &'static [Choice<Self>] = &[
         choice(Self::Depth, "depth", "depth", "The depth along the axis of the camera, in world units."),
         choice(Self::Distance, "distance", "distance", "The distance from the camera, in world units."),
-        choice(Self::Position, "position", "position", "The point in world space."),
+        choice(
+            Self::Position,
+            "position",
+            "position",
+            "The point in world space, counted from the camera's origin where it has one.",
+        ),
         choice(Self::Normal, "normal", "normal", "The interpolated normal in world space."),
         choice(Self::EyeNormal, "eye_normal", "normal in eye space", "The interpolated normal in eye space."),
         choice(Self::FaceNormal, "face_normal", "normal of the triangle", "The triangle's normal in world space."),
@@ -100,7 +105,7 @@ impl Quantity {
         match self {
             Self::Depth => push(&[point.depth]),
             Self::Distance => push(&[point.distance]),
-            Self::Position => push(&point.position.to_array()),
+            Self::Position => push(&(point.position - surfaces.origin()).to_array()),
             Self::Normal => push(&point.normal.to_array()),
             Self::EyeNormal => push(&surfaces.in_eye_space(point.normal).to_array()),
             Self::FaceNormal => push(&point.face_normal.to_array()),

@@ -10,7 +10,7 @@ use halfway_asset::Assets;
 use halfway_frame::error::RenderError;
 use halfway_frame::view::camera::{PictureSize, View, eye_from_world};
 use halfway_frame::view::matrices::{Visible, normal_matrix};
-use halfway_lighting::{Camera, Lens, current_camera};
+use halfway_lighting::{Camera, FrameOrigin, Lens, current_camera};
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 /// The surface that the middle of each pixel shows, with all that is known of it.
@@ -53,6 +53,8 @@ pub struct Surfaces {
     size: UVec2,
     lens: Lens<f64>,
     eye_from_world: DAffine3,
+    /// The point of the world from which `eye_from_world` counts.
+    origin: DVec3,
     objects: Vec<SeenObject>,
     /// The number of the object and of its triangle, row by row from the top.
     numbers: Vec<Option<[u32; 2]>>,
@@ -152,7 +154,8 @@ impl Surfaces {
         numbers: Vec<Option<[u32; 2]>>,
     ) -> Self {
         let lens = camera.projection.lens(size.to_array());
-        Self { size, lens, eye_from_world, objects: SeenObject::all(world, entities, &eye_from_world), numbers }
+        let origin = world.get_resource::<FrameOrigin>().copied().unwrap_or_default().0;
+        Self { size, lens, eye_from_world, origin, objects: SeenObject::all(world, entities, &eye_from_world), numbers }
     }
 
     /// Width and height in pixels.
@@ -192,7 +195,7 @@ impl Surfaces {
             part: seen.part,
             triangle,
             barycentrics: weights,
-            position: world_from_eye.transform_point3(eye),
+            position: self.origin + world_from_eye.transform_point3(eye),
             depth: -eye.z,
             distance: eye.length(),
             front,
@@ -212,7 +215,13 @@ impl Surfaces {
         &self.lens
     }
 
-    /// World to eye.
+    /// The point from which [`Quantity::Position`](crate::Quantity::Position) counts: the origin of the camera
+    /// ([`FrameOrigin`]), 0 where nothing has one.
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// World to eye, counted from [`origin`](Self::origin).
     pub(crate) fn eye_from_world(&self) -> DAffine3 {
         self.eye_from_world
     }

@@ -11,7 +11,7 @@ use halfway_lighting::{Camera, DirectionalLight, PointLight, Projection, light_d
 use crate::spawned::app;
 use halfway_scene::{AnimatedKey, AnimationPlugin, Interpolation, KeyFrame, SceneFile, SceneTime, TrackEntry, spawn};
 
-fn track(of: AnimatedKey, keys: &[(f32, &[f32])]) -> TrackEntry {
+fn track(of: AnimatedKey, keys: &[(f32, &[f64])]) -> TrackEntry {
     TrackEntry::new(of, keys.iter().map(|(time, value)| KeyFrame { time: *time, value: value.to_vec() }).collect())
 }
 
@@ -52,13 +52,13 @@ fn a_value_that_stays_is_exact() {
 
 #[test]
 fn rotations_take_the_shorter_way_at_an_even_speed() {
-    let about = |degrees: f32| Quat::from_rotation_y(degrees.to_radians()).to_array();
+    let about = |degrees: f32| Quat::from_rotation_y(degrees.to_radians()).to_array().map(f64::from);
     // The last one is the negative of the same rotation, and not of unit length.
     let minus = about(120.0).map(|c| -1.01 * c);
     let track = track(AnimatedKey::Rotation, &[(0.0, &about(0.0)), (1.0, &about(120.0)), (2.0, &minus)]);
     for (time, degrees) in [(0.0, 0.0), (0.25, 30.0), (0.5, 60.0), (1.0, 120.0), (1.5, 120.0), (2.0, 120.0)] {
-        let found = Quat::from_array(track.at(time));
-        let expected = Quat::from_array(about(degrees));
+        let found = bevy_math::DQuat::from_array(track.at(time)).as_quat();
+        let expected = bevy_math::DQuat::from_array(about(degrees)).as_quat();
         assert!(found.is_normalized() && found.angle_between(expected) < 1e-3, "{time}: {found}");
     }
 }

@@ -245,7 +245,7 @@ pub(super) const OBJECTS: &[BadEntry] = &[
     (
         r#""mesh": {"inline": {"positions": [0, 1e39, 0], "indices": [0, 0, 0]}}"#,
         52,
-        ".mesh.inline.positions[1]`: is inf; expected a finite number",
+        ".mesh.inline.positions[1]`: is too large; expected a number of at most 3.4e38",
     ),
     (
         r#""mesh": {"inline": {"positions": [0, 0, 0], "indices": [0, 0, 0], "normals": [0, 1]}}"#,
@@ -290,7 +290,7 @@ pub(super) const OBJECTS: &[BadEntry] = &[
     (
         r#""mesh": {"box": {}}, "transform": {"scale": [1, 1e39, 1]}"#,
         63,
-        ".transform.scale[1]`: is inf; expected a finite number",
+        ".transform.scale[1]`: is too large; expected a number of at most 3.4e38",
     ),
     (
         r#""mesh": {"box": {}}, "transform": {"matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,2]}"#,

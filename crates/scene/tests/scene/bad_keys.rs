@@ -19,7 +19,7 @@ pub(super) const NOT_JSON: &[Bad] = &[
     (r#"{"samples": 1} {"#, (1, 16), "more text after the end of the scene"),
     ("[]", (1, 1), "is a value of the wrong type: list, expected an object with the keys of a scene"),
     (r#"{"samples": 01}"#, (1, 13), "`samples`: invalid number"),
-    (r#"{"ambient": [1e400, 0, 0]}"#, (1, 14), "`ambient[0]`: number out of range"),
+    (r#"{"ambient": [1e400, 0, 0]}"#, (1, 14), "`ambient[0]`: is too large; expected a number of at most 3.4e38"),
 ];
 
 /// The same for every key: unknown ones, wrong types, lengths of lists.

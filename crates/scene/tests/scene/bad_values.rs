@@ -9,7 +9,7 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     (r#"{"size": [0, 720]}"#, (1, 11), "`size[0]`: is 0; expected 1 to 16384"),
     (r#"{"size": [1280, 16385]}"#, (1, 17), "`size[1]`: is 16385; expected 1 to 16384"),
     (r#"{"background": [0, -0.5, 0]}"#, (1, 20), "`background[1]`: is -0.5; expected a number from 0 to 1e12"),
-    (r#"{"ambient": [0, 0, 1e39]}"#, (1, 20), "`ambient[2]`: is inf; expected a number from 0 to 1e12"),
+    (r#"{"ambient": [0, 0, 1e39]}"#, (1, 20), "`ambient[2]`: is too large; expected a number of at most 3.4e38"),
     (r#"{"samples": 2}"#, (1, 13), "`samples`: is 2; expected 1, 4, 16 or 64"),
     (
         r#"{"intensity": {"reinhard": {"white": 0.5}}}"#,
@@ -36,7 +36,7 @@ pub(super) const OUT_OF_RANGE: &[Bad] = &[
     (
         r#"{"environment": {"paths": ["a.hdr"], "rotation_deg": 1e39}}"#,
         (1, 54),
-        "`environment.rotation_deg`: is inf; expected a finite number",
+        "`environment.rotation_deg`: is too large; expected a number of at most 3.4e38",
     ),
     (r#"{"environment": {"paths": []}}"#, (1, 27), "`environment.paths`: has 0 files; expected 1 for this shape"),
     (

@@ -137,7 +137,10 @@ fn any_number_survives_being_written() {
             continue;
         }
         let mut scene = SceneFile::for_model("a.obj");
-        let light = LightEntry { position: [number, -number, 1.0, 1.0], ..LightEntry::white(LightKind::Point) };
+        let light = LightEntry {
+            position: [f64::from(number), -f64::from(number), 1.0, 1.0],
+            ..LightEntry::white(LightKind::Point)
+        };
         scene.lights = Some(vec![light].into());
         assert_eq!(parse(&scene.to_json().unwrap()), scene, "{number:?}");
     }
@@ -162,7 +165,7 @@ fn rotations_near_unit_length_become_unit() {
         let Ok(scene) = scene else { continue };
         let x = scene.objects[0].transform.matrix().x_axis;
         // A quarter turn about +Y takes +X to −Z, to the rounding of f32.
-        assert!((x - bevy_math::Vec4::NEG_Z).length() < 1e-6, "{rotation}: {x}");
+        assert!((x - bevy_math::DVec4::NEG_Z).length() < 1e-6, "{rotation}: {x}");
     }
 }
 

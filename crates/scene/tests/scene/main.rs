@@ -12,6 +12,7 @@ mod defaults;
 mod documented;
 mod environment;
 mod examples;
+mod far;
 mod fuzzed;
 mod import;
 mod maps;
