@@ -5,6 +5,8 @@
 //! - `ecs`: [`Mesh3d`], [`Lines3d`], [`MeshPlugin`] and [`SpawnOrder`]. Without it the crate has no ECS below it.
 //! - `formats`: reading and writing of model files: [`load`], [`write`](write()), [`Model`] and its parts.
 
+#[cfg(feature = "formats")]
+mod animation;
 mod bounds;
 mod buckets;
 mod classes;
@@ -32,6 +34,8 @@ mod surfaces;
 mod tangents;
 mod triangle_tree;
 
+#[cfg(feature = "formats")]
+pub use animation::{Animations, Clip, Pose, PosedPart};
 pub use bounds::Bounds;
 #[cfg(feature = "ecs")]
 pub use component::{Lines3d, Mesh3d, MeshPlugin, SpawnOrder};

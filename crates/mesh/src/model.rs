@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Mat4};
 
-use crate::{Bounds, Lines, Mesh, SourceMap};
+use crate::{Animations, Bounds, Lines, Mesh, SourceMap};
 
 /// The content of a model file: meshes placed in the world, and the materials and lights that the file describes.
 ///
@@ -38,6 +38,9 @@ pub struct Model {
     pub cameras: Vec<SourceCamera>,
     /// Numbers beside the meshes, such as temperatures.
     pub properties: Arc<[Property]>,
+    /// How the model moves, where its file says so (glTF). Parts, lines, lights and cameras here are in the pose of the
+    /// file.
+    pub animations: Option<Arc<Animations>>,
     /// Sentences about everything that was skipped or corrected.
     pub warnings: Vec<String>,
 }

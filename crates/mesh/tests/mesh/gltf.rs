@@ -273,7 +273,6 @@ fn skipped_contents_give_warnings() {
             "the extension KHR_materials_clearcoat is skipped",
             "the extension KHR_texture_basisu is skipped",
             "only the default scene of 2 is read",
-            "the morph targets of 1 primitives are skipped",
         ]
     );
 }
