@@ -50,7 +50,7 @@ pub use mesh_edges::MeshEdge;
 #[cfg(feature = "formats")]
 pub use model::{
     AlphaMode, GltfMaps, LinePart, MetallicRoughness, Model, MtlMaps, MtlMaterial, Part, Property, ScalarValues,
-    SourceCamera, SourceLight, SourceLightKind, SourceMaterial, SourceProjection,
+    SourceCamera, SourceLight, SourceLightKind, SourceMaterial, SourceProjection, SpecularGlossiness,
 };
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
 pub use occlusion::{OcclusionBake, OcclusionError, OcclusionImage};

@@ -43,6 +43,7 @@ fn check_triangle(model: &Model) {
             double_sided: false,
             unlit: false,
             alpha: AlphaMode::Opaque,
+            specular_glossiness: None,
             maps: GltfMaps::default(),
         })]
     );
@@ -200,6 +201,7 @@ fn materials_keep_their_factors() {
         double_sided: false,
         unlit: false,
         alpha: AlphaMode::Opaque,
+        specular_glossiness: None,
         maps: GltfMaps::default(),
     };
     let expected = [

@@ -1,7 +1,7 @@
 //! Legal glTF that readers often refuse.
 
 use glam::{DVec3, Mat4, Vec3};
-use halfway_mesh::{Format, Model, SourceMaterial, load, load_bytes};
+use halfway_mesh::{Format, Model, SourceMap, SourceMaterial, load, load_bytes};
 
 use crate::common::{Folder, GltfFile, TRIANGLE_JSON, glb, triangle_data};
 
@@ -248,4 +248,27 @@ fn a_mesh_stands_where_its_instances_do() {
         let error = file.load(&members.replace(from, to)).unwrap_err().to_string();
         assert!(error.contains(expected), "{error}");
     }
+}
+
+#[test]
+fn specular_glossiness_materials_are_read() {
+    let extension = r#""extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0.5,0.25,0,0.75],
+        "specularFactor":[0.1,0.2,0.3],"glossinessFactor":0.75,"diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1}}},"#;
+    let images =
+        r#""images":[{"uri":"data:,kd"},{"uri":"data:,ks"}],"textures":[{"source":0},{"source":1}],"materials":["#;
+    let lists = "{\"version\":\"2.0\"},\"extensionsRequired\":[\"KHR_materials_pbrSpecularGlossiness\"]";
+    let name = "\"name\":\"red\",";
+    let model =
+        with(&[("{\"version\":\"2.0\"}", lists), ("\"materials\":[", images), (name, &format!("{name}{extension}"))]);
+    let [SourceMaterial::MetallicRoughness(gltf)] = &model.materials[..] else { panic!("{:?}", model.materials) };
+    assert_eq!((gltf.base_color, gltf.metallic, gltf.roughness), ([0.5, 0.25, 0.0, 0.75], 0.0, 0.25));
+    let specular = gltf.specular_glossiness.as_ref().unwrap();
+    assert_eq!((specular.specular, specular.glossiness), ([0.1, 0.2, 0.3], 0.75));
+    let bytes = |map: &Option<SourceMap>| map.as_ref().map(|map| map.bytes.to_vec());
+    assert_eq!(bytes(&gltf.maps.base_color), Some(b"kd".to_vec()));
+    assert_eq!(bytes(&specular.map), Some(b"ks".to_vec()));
+    assert_eq!(
+        model.warnings,
+        ["materials[0]: of the specular-glossiness texture only the color counts; the glossiness is the factor's"]
+    );
 }
