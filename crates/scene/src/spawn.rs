@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
@@ -27,6 +28,7 @@ use crate::light_place::place;
 use crate::lights_entry::LightsEntry;
 use crate::lines::LineStyleEntry;
 use crate::material::MaterialEntry;
+use crate::model_animation::ModelAnimation;
 use crate::models::{ModelMap, ObjectShape, ShapeLines, ShapePart, Shapes};
 use crate::named::NameOrIndex;
 use crate::object::ObjectEntry;
@@ -51,7 +53,7 @@ pub struct Spawned {
     /// The scene's own warnings, and those of its models' repairs and omissions, one sentence each, with the file's
     /// name.
     pub warnings: Vec<String>,
-    /// Whether the camera, an object or a light changes in time; [`AnimationPlugin`](crate::AnimationPlugin) plays it.
+    /// Whether the camera, an object, its model or a light changes in time; [`AnimationPlugin`](crate::AnimationPlugin) plays it.
     pub is_animated: bool,
 }
 
@@ -132,6 +134,8 @@ fn placed_as(entry: &CameraEntry) -> CameraEntry {
 /// - Where the scene has no camera, one is made that frames all objects ([`framing_camera`]).
 /// - Where an object has no material, its model's own materials are used, translated by
 ///   [`import`](crate::import), with their double-sidedness, blending and masks unless the object says otherwise.
+/// - The first of the animations of a model (glTF) is played, where the App has an
+///   [`AnimationPlugin`](crate::AnimationPlugin); otherwise its parts are in the pose of the file.
 /// - With a model's own materials come their images, where the world has `Assets<Texture>`. An image that cannot be
 ///   read gives a warning and is replaced by a checker.
 /// - Where the scene has no `lights`, the models' own lights shine (`KHR_lights_punctual`), attached to their object;
@@ -207,6 +211,11 @@ fn spawn_seen(
         .map(|(i, (object, shape))| spawn_object(object, i, shape, (&mut handles, &mut textures), world))
         .collect::<Vec<_>>();
     let lights = spawn_lights(scene, camera, &objects, &frames, world);
+    if let [SeenFrom::Model { index: [object, index], .. }] = seen[..]
+        && let Some(mut animation) = world.get_mut::<ModelAnimation>(frames[object])
+    {
+        animation.camera = Some((camera, index, scene.objects[object].transform.matrix()));
+    }
     let mut warnings = [scene.warnings.clone(), shapes.warnings].concat();
     hang_maps(scene, base_dir, &frames, &mut warnings, world);
     if let Some(environment) = &scene.environment {
@@ -240,7 +249,7 @@ enum SeenFrom {
     /// One of the scene's own, or one that frames everything.
     Entry(CameraEntry),
     /// One of a model's.
-    Model { name: String, projection: Projection, place: Transform },
+    Model { name: String, projection: Projection, place: Transform, index: [usize; 2] },
 }
 
 impl SeenFrom {
@@ -291,7 +300,7 @@ impl SeenFrom {
             source: error,
         })?;
         let place = camera_place(&(object.transform.matrix() * place.to_matrix()));
-        Ok(Self::Model { name: source.name.clone(), projection, place })
+        Ok(Self::Model { name: source.name.clone(), projection, place, index: [i, k] })
     }
 }
 
@@ -305,7 +314,7 @@ fn spawn_camera(
     let default = CameraEntry::default();
     let (entry, name, projection, place) = match seen {
         SeenFrom::Entry(entry) => (entry, entry.name.as_deref(), entry.projection(), entry.transform()),
-        SeenFrom::Model { name, projection, place } => {
+        SeenFrom::Model { name, projection, place, .. } => {
             (&default, Some(name.as_str()).filter(|name| !name.is_empty()), *projection, *place)
         }
     };
@@ -346,7 +355,7 @@ fn spawn_camera(
 
 fn is_animated(entity: Entity, world: &World) -> bool {
     // The frame of an object that shears is its inner one, and does not move.
-    world.get::<Animated>(entity).is_some()
+    world.get::<Animated>(entity).is_some() || world.get::<ModelAnimation>(entity).is_some()
 }
 
 /// Above this number of vertices the corners of boxes stand for them.
@@ -476,6 +485,7 @@ fn spawn_object(
     let name = object.name.clone().unwrap_or_else(|| format!("objects[{index}]"));
     let frame = spawn_frame(&Placement::from_matrix(&object.transform.matrix()), None, &name, world);
     match (shape.parts.as_slice(), shape.lines.as_slice()) {
+        _ if shape.animations.is_some() => drop(spawn_parts(object, frame, shape, (handles, textures), world)),
         ([part], []) if part.object_from_part == Mat4::IDENTITY => {
             dress_whole(object, part, (handles, textures), frame, world);
         }
@@ -497,20 +507,39 @@ pub(crate) fn spawn_parts(
     (handles, textures): (&mut Handles, &mut TextureHandles),
     world: &mut World,
 ) -> Vec<Entity> {
+    // What moves may shear at some time.
+    let placement = |matrix: &Mat4| {
+        let placement = Placement::from_matrix(matrix);
+        let inner = shape.animations.as_ref().map(|_| placement.inner.unwrap_or_default());
+        Placement { inner: inner.or(placement.inner), ..placement }
+    };
     let spawn_part = |(i, part): (usize, &ShapePart)| {
         let name = if part.name.is_empty() { format!("parts[{i}]") } else { part.name.clone() };
-        let entity = spawn_frame(&Placement::from_matrix(&part.object_from_part), Some(frame), &name, world);
+        let entity = spawn_frame(&placement(&part.object_from_part), Some(frame), &name, world);
         dress_whole(object, part, (handles, textures), entity, world);
         entity
     };
     let parts: Vec<Entity> = shape.parts.iter().enumerate().map(spawn_part).collect();
     let spawn_lines = |(i, lines): (usize, &ShapeLines)| {
         let name = if lines.name.is_empty() { format!("lines[{i}]") } else { lines.name.clone() };
-        let entity = spawn_frame(&Placement::from_matrix(&lines.object_from_part), Some(frame), &name, world);
+        let entity = spawn_frame(&placement(&lines.object_from_part), Some(frame), &name, world);
         dress_lines(object, lines, entity, world);
         entity
     };
     let lines: Vec<Entity> = shape.lines.iter().enumerate().map(spawn_lines).collect();
+    if let Some(animations) = &shape.animations {
+        world.entity_mut(frame).insert(ModelAnimation {
+            animations: Arc::clone(animations),
+            clip: 0,
+            parts: parts.clone(),
+            lines: lines.clone(),
+            lights: Vec::new(),
+            camera: None,
+            normals: object.normals,
+            moves_vertices: object.displacement.is_none() && object.scalars.is_none(),
+            shown: None,
+        });
+    }
     [parts, lines].concat()
 }
 
@@ -712,6 +741,9 @@ pub(crate) fn spawn_own_lights(objects: &[Object], frames: &[Entity], world: &mu
         for light in &shape.lights {
             let name = if light.name.is_empty() { "light".to_owned() } else { light.name.clone() };
             lights.push(spawn_light(name, light.light, light.object_from_light, Some(frame), world));
+        }
+        if let Some(mut animation) = world.get_mut::<ModelAnimation>(frame) {
+            animation.lights = lights[lights.len() - shape.lights.len()..].to_vec();
         }
     }
     lights

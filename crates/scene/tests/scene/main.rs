@@ -15,6 +15,7 @@ mod examples;
 mod fuzzed;
 mod import;
 mod maps;
+mod model_animation;
 mod model_root;
 mod past_failures;
 mod retired;
