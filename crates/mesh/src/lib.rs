@@ -5,6 +5,8 @@
 //! - `ecs`: [`Mesh3d`], [`Lines3d`], [`MeshPlugin`] and [`SpawnOrder`]. Without it the crate has no ECS below it.
 //! - `formats`: reading and writing of model files: [`load`], [`write`](write()), [`Model`] and its parts.
 
+#[cfg(feature = "formats")]
+mod animation;
 mod bounds;
 mod buckets;
 mod classes;
@@ -32,6 +34,8 @@ mod surfaces;
 mod tangents;
 mod triangle_tree;
 
+#[cfg(feature = "formats")]
+pub use animation::{Animations, Clip, Pose, PosedPart};
 pub use bounds::Bounds;
 #[cfg(feature = "ecs")]
 pub use component::{Lines3d, Mesh3d, MeshPlugin, SpawnOrder};
@@ -46,7 +50,7 @@ pub use mesh_edges::MeshEdge;
 #[cfg(feature = "formats")]
 pub use model::{
     AlphaMode, GltfMaps, LinePart, MetallicRoughness, Model, MtlMaps, MtlMaterial, Part, Property, ScalarValues,
-    SourceCamera, SourceLight, SourceLightKind, SourceMaterial, SourceProjection,
+    SourceCamera, SourceLight, SourceLightKind, SourceMaterial, SourceProjection, SpecularGlossiness,
 };
 pub use normals::{NormalReport, NormalWeighting, Normals, face_normal};
 pub use occlusion::{OcclusionBake, OcclusionError, OcclusionImage};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Mat4};
 
-use crate::{Bounds, Lines, Mesh, SourceMap};
+use crate::{Animations, Bounds, Lines, Mesh, SourceMap};
 
 /// The content of a model file: meshes placed in the world, and the materials and lights that the file describes.
 ///
@@ -38,6 +38,9 @@ pub struct Model {
     pub cameras: Vec<SourceCamera>,
     /// Numbers beside the meshes, such as temperatures.
     pub properties: Arc<[Property]>,
+    /// How the model moves, where its file says so (glTF). Parts, lines, lights and cameras here are in the pose of the
+    /// file.
+    pub animations: Option<Arc<Animations>>,
     /// Sentences about everything that was skipped or corrected.
     pub warnings: Vec<String>,
 }
@@ -155,7 +158,10 @@ impl SourceMaterial {
     pub fn has_maps(&self) -> bool {
         match self {
             Self::Mtl(mtl) => mtl.maps != MtlMaps::default(),
-            Self::MetallicRoughness(gltf) => gltf.maps != GltfMaps::default(),
+            Self::MetallicRoughness(gltf) => {
+                let has_specular = gltf.specular_glossiness.as_ref().is_some_and(|specular| specular.map.is_some());
+                has_specular || gltf.maps != GltfMaps::default()
+            }
         }
     }
 
@@ -233,8 +239,22 @@ pub struct MetallicRoughness {
     pub unlit: bool,
     /// `alphaMode` and `alphaCutoff`.
     pub alpha: AlphaMode,
+    /// `KHR_materials_pbrSpecularGlossiness`, which replaces the metallic and the roughness factor: `base_color` and its
+    /// image then are the diffuse ones, `metallic` is 0, and `roughness` is 1 less the glossiness.
+    pub specular_glossiness: Option<SpecularGlossiness>,
     /// The images.
     pub maps: GltfMaps,
+}
+
+/// The highlight of a material of `KHR_materials_pbrSpecularGlossiness`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpecularGlossiness {
+    /// `specularFactor`: linear RGB reflectance at normal incidence.
+    pub specular: [f32; 3],
+    /// `glossinessFactor`: 0 rough … 1 smooth.
+    pub glossiness: f32,
+    /// `specularGlossinessTexture`: its color multiplies `specular`. The glossiness in its alpha is not used.
+    pub map: Option<SourceMap>,
 }
 
 /// The images of a [`MetallicRoughness`] material. `None` where the file names none.

@@ -1,5 +1,6 @@
-//! Animations of scene files, played: [`AnimationPlugin`] gives the entities of a scene that was
-//! [spawned](fn@crate::spawn) the values of their keys at the [`SceneTime`] of each frame.
+//! Animations of scene files and of their models, played: [`AnimationPlugin`] gives the entities of a scene that was
+//! [spawned](fn@crate::spawn) the values of their keys at the [`SceneTime`] of each frame, and the parts of models (glTF)
+//! their places and vertices.
 
 use std::sync::Arc;
 
@@ -12,11 +13,12 @@ use halfway_lighting::{Camera, Origin};
 
 use crate::light::LightEntry;
 use crate::light_place::place;
+use crate::model_animation::play_models;
 use crate::track::{Animate, TrackEntry};
 use crate::transform::TransformEntry;
 use crate::view::CameraEntry;
 
-/// The time of the animations of scenes.
+/// The time of the animations of scenes and models.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
 pub enum SceneTime {
     /// The time since the App's start, by bevy's `Time`.
@@ -30,7 +32,7 @@ pub enum SceneTime {
 #[derive(SystemSet, Clone, Debug, PartialEq, Eq, Hash)]
 pub struct AnimationSystems;
 
-/// Plays the animations of spawned scenes at the App's [`SceneTime`]. Part of `HalfwayPlugins`.
+/// Plays the animations of spawned scenes and models at the App's [`SceneTime`]. Part of `HalfwayPlugins`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AnimationPlugin;
 
@@ -78,6 +80,7 @@ fn play(world: &mut World) {
     for (entity, animated) in animated {
         pose(&mut world.entity_mut(entity), &animated, time);
     }
+    play_models(world, time);
 }
 
 fn pose(entity: &mut EntityWorldMut, animated: &Animated, time: f64) {

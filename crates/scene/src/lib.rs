@@ -25,6 +25,7 @@ mod locate;
 mod maps;
 mod material;
 mod mesh;
+mod model_animation;
 mod model_root;
 mod models;
 mod named;

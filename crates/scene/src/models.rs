@@ -9,12 +9,15 @@ use bevy_color::LinearRgba;
 use bevy_math::{DVec3, Mat4};
 use bevy_transform::components::Transform;
 use halfway_asset::Handle;
-use halfway_mesh::{Lines, Mesh, Model, NormalReport, Normals, Property, SourceCamera, SourceMap, SourceMaterial};
+use halfway_mesh::{
+    Animations, Lines, Mesh, Model, NormalReport, Normals, Property, SourceCamera, SourceMap, SourceMaterial,
+};
 use halfway_texture::{FarNormals, MapKind, Pyramid, SurfaceMap, TexelMeaning, Texture, UvSet};
 
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
 use crate::mesh::{LoadedModel, MeshEntry};
+use crate::model_animation::which_is_played;
 use crate::object::ObjectEntry;
 use crate::scalars::{ColorMap, Scalars};
 use halfway_lighting::{AlphaMode, Faces, LightComponent, Material};
@@ -28,6 +31,8 @@ pub(crate) struct ObjectShape {
     pub(crate) cameras: Vec<SourceCamera>,
     /// The point of the object from which the places of all of them are counted.
     pub(crate) origin: DVec3,
+    /// How the model moves.
+    pub(crate) animations: Option<Arc<Animations>>,
 }
 
 /// One mesh of a shape, where it stands inside the object.
@@ -181,13 +186,8 @@ impl<'a> Shapes<'a> {
         self.warn_of_normals(&at, report);
         let (name, object_from_part) = (String::new(), Mat4::IDENTITY);
         let part = ShapePart { name, mesh, object_from_part, own: None, maps, scalars };
-        Ok(ObjectShape {
-            parts: vec![part],
-            lines: Vec::new(),
-            lights: Vec::new(),
-            cameras: Vec::new(),
-            origin: DVec3::ZERO,
-        })
+        let (lines, lights, cameras) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(ObjectShape { parts: vec![part], lines, lights, cameras, animations: None, origin: DVec3::ZERO })
     }
 
     /// The image that displaces an object; of one that cannot be read there is a warning.
@@ -269,7 +269,10 @@ impl<'a> Shapes<'a> {
             object_from_part: part.world_from_part,
             own: part.material.and_then(|material| materials.get(material)).copied(),
         });
-        Ok(ObjectShape { parts, lines: lines.collect(), lights, cameras: model.cameras, origin: model.origin })
+        let which = model.animations.as_ref().and_then(|animations| which_is_played(animations));
+        self.warnings.extend(which.map(|sentence| format!("{file}: {sentence}")));
+        let (lines, cameras, animations) = (lines.collect(), model.cameras, model.animations);
+        Ok(ObjectShape { parts, lines, lights, cameras, animations, origin: model.origin })
     }
 
     fn material(&mut self, source: &SourceMaterial, at: String, index: usize) -> Result<ModelMaterial, SceneError> {

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use bevy_color::{ColorToComponents, LinearRgba};
 use bevy_ecs::prelude::*;
@@ -27,6 +28,7 @@ use crate::light_place::place;
 use crate::lights_entry::LightsEntry;
 use crate::lines::LineStyleEntry;
 use crate::material::MaterialEntry;
+use crate::model_animation::ModelAnimation;
 use crate::models::{ModelMap, ObjectShape, ShapeLines, ShapePart, Shapes};
 use crate::named::NameOrIndex;
 use crate::object::ObjectEntry;
@@ -51,7 +53,7 @@ pub struct Spawned {
     /// The scene's own warnings, and those of its models' repairs and omissions, one sentence each, with the file's
     /// name.
     pub warnings: Vec<String>,
-    /// Whether the camera, an object or a light changes in time; [`AnimationPlugin`](crate::AnimationPlugin) plays it.
+    /// Whether the camera, an object, its model or a light changes in time; [`AnimationPlugin`](crate::AnimationPlugin) plays it.
     pub is_animated: bool,
     /// The [`Origin`] of the camera and of all that is near it; 0 unless the scene is far away beside its size, as at map
     /// coordinates.
@@ -144,6 +146,8 @@ fn placed_as(entry: &CameraEntry) -> CameraEntry {
 /// - Where the scene has no camera, one is made that frames all objects ([`framing_camera`]).
 /// - Where an object has no material, its model's own materials are used, translated by
 ///   [`import`](crate::import), with their double-sidedness, blending and masks unless the object says otherwise.
+/// - The first of the animations of a model (glTF) is played, where the App has an
+///   [`AnimationPlugin`](crate::AnimationPlugin); otherwise its parts are in the pose of the file.
 /// - With a model's own materials come their images, where the world has `Assets<Texture>`. An image that cannot be
 ///   read gives a warning and is replaced by a checker.
 /// - Where the scene has no `lights`, the models' own lights shine (`KHR_lights_punctual`), attached to their object;
@@ -220,6 +224,11 @@ fn spawn_seen(
         .map(|(i, (object, shape))| spawn_object((object, i), shape, (&mut handles, &mut textures), origin, world))
         .collect::<Vec<_>>();
     let lights = spawn_lights(scene, camera, (&objects, &frames), origin, world);
+    if let [SeenFrom::Model { index: [object, index], .. }] = seen[..]
+        && let Some(mut animation) = world.get_mut::<ModelAnimation>(frames[object])
+    {
+        animation.camera = Some((camera, index, DMat4::from_translation(-origin) * world_from_model(&objects[object])));
+    }
     let mut warnings = [scene.warnings.clone(), shapes.warnings].concat();
     hang_maps(scene, base_dir, &frames, &mut warnings, world);
     if let Some(environment) = &scene.environment {
@@ -241,6 +250,11 @@ pub(crate) fn has_mesh_assets(world: &World) -> bool {
 
 pub(crate) type Object<'a> = (&'a ObjectEntry, Rc<ObjectShape>);
 
+/// From the places of a model, which are counted from its origin, into the world.
+fn world_from_model((object, shape): &Object) -> DMat4 {
+    object.transform.matrix() * DMat4::from_translation(shape.origin)
+}
+
 /// The handle of every mesh that has been added, by where its data is: meshes that share data share a handle. All of
 /// them outlive this map, in the shapes.
 pub(crate) type Handles = HashMap<*const Vec3, Handle<Mesh>>;
@@ -253,7 +267,7 @@ enum SeenFrom {
     /// One of the scene's own, or one that frames everything.
     Entry(CameraEntry),
     /// One of a model's.
-    Model { name: String, projection: Projection, world_from_camera: DMat4 },
+    Model { name: String, projection: Projection, world_from_camera: DMat4, index: [usize; 2] },
 }
 
 impl SeenFrom {
@@ -301,16 +315,15 @@ impl SeenFrom {
         }
         // The list has it.
         let (i, k) = of_models().nth(found - own).unwrap_or_default();
-        let (object, shape) = &objects[i];
+        let (_, shape) = &objects[i];
         let source = &shape.cameras[k];
         let (projection, place) = model_camera(source).map_err(|error| SceneError::ModelValue {
             key: format!("objects[{i}].mesh.path"),
             at: format!("camera {:?}", source.name),
             source: error,
         })?;
-        let object_from_model = DMat4::from_translation(shape.origin);
-        let world_from_camera = object.transform.matrix() * object_from_model * place.to_matrix().as_dmat4();
-        Ok(Self::Model { name: source.name.clone(), projection, world_from_camera })
+        let world_from_camera = world_from_model(&objects[i]) * place.to_matrix().as_dmat4();
+        Ok(Self::Model { name: source.name.clone(), projection, world_from_camera, index: [i, k] })
     }
 
     /// The origin of a scene that is seen from here.
@@ -333,7 +346,7 @@ fn spawn_camera(
     let default = CameraEntry::default();
     let (entry, name, projection, place) = match seen {
         SeenFrom::Entry(entry) => (entry, entry.name.as_deref(), entry.projection(), entry.transform(origin)),
-        SeenFrom::Model { name, projection, world_from_camera } => {
+        SeenFrom::Model { name, projection, world_from_camera, .. } => {
             let place = camera_place(&(DMat4::from_translation(-origin) * *world_from_camera).as_mat4());
             (&default, Some(name.as_str()).filter(|name| !name.is_empty()), *projection, place)
         }
@@ -376,7 +389,7 @@ fn spawn_camera(
 
 fn is_animated(entity: Entity, world: &World) -> bool {
     // The frame of an object that shears is its inner one, and does not move.
-    world.get::<Animated>(entity).is_some()
+    world.get::<Animated>(entity).is_some() || world.get::<ModelAnimation>(entity).is_some()
 }
 
 /// Above this number of vertices the corners of boxes stand for them.
@@ -386,9 +399,10 @@ const FRAMED_VERTICES: usize = 1 << 20;
 /// origin from which they are counted.
 fn outline_of(objects: &[Object]) -> (DVec3, Vec<Vec3>) {
     let mut outlined = Vec::new();
-    for (object, shape) in objects {
-        let world_from_object = object.transform.matrix() * DMat4::from_translation(shape.origin);
-        let place = |object_from_part: &Mat4| DAffine3::from_mat4(world_from_object * object_from_part.as_dmat4());
+    for object in objects {
+        let (_, shape) = object;
+        let world_from_model = world_from_model(object);
+        let place = |model_from_part: &Mat4| DAffine3::from_mat4(world_from_model * model_from_part.as_dmat4());
         outlined.extend(shape.parts.iter().map(|part| (Outlined::Mesh(&part.mesh), place(&part.object_from_part))));
         outlined.extend(shape.lines.iter().map(|part| (Outlined::Lines(&part.lines), place(&part.object_from_part))));
     }
@@ -551,6 +565,7 @@ fn spawn_object(
     let frame = spawn_frame(&Place::near(origin, &object.transform.matrix()), None, &name, world);
     let is_near = shape.origin == DVec3::ZERO;
     match (shape.parts.as_slice(), shape.lines.as_slice()) {
+        _ if shape.animations.is_some() => drop(spawn_parts(object, frame, shape, (handles, textures), world)),
         ([part], []) if is_near && part.object_from_part == Mat4::IDENTITY => {
             dress_whole(object, part, (handles, textures), frame, world);
         }
@@ -574,9 +589,11 @@ pub(crate) fn spawn_parts(
     (handles, textures): (&mut Handles, &mut TextureHandles),
     world: &mut World,
 ) -> Vec<Entity> {
+    // What moves may shear at some time.
     let place = |object_from_part: &Mat4| {
         let placement = Placement::from_matrix(&object_from_part.as_dmat4());
-        Place { placement, origin: shape.origin }
+        let inner = shape.animations.as_ref().map(|_| placement.inner.unwrap_or_default());
+        Place { placement: Placement { inner: inner.or(placement.inner), ..placement }, origin: shape.origin }
     };
     let spawn_part = |(i, part): (usize, &ShapePart)| {
         let name = if part.name.is_empty() { format!("parts[{i}]") } else { part.name.clone() };
@@ -592,6 +609,19 @@ pub(crate) fn spawn_parts(
         entity
     };
     let lines: Vec<Entity> = shape.lines.iter().enumerate().map(spawn_lines).collect();
+    if let Some(animations) = &shape.animations {
+        world.entity_mut(frame).insert(ModelAnimation {
+            animations: Arc::clone(animations),
+            clip: 0,
+            parts: parts.clone(),
+            lines: lines.clone(),
+            lights: Vec::new(),
+            camera: None,
+            normals: object.normals,
+            moves_vertices: object.displacement.is_none() && object.scalars.is_none(),
+            shown: None,
+        });
+    }
     [parts, lines].concat()
 }
 
@@ -797,6 +827,9 @@ pub(crate) fn spawn_own_lights(objects: &[Object], frames: &[Entity], world: &mu
             let name = if light.name.is_empty() { "light".to_owned() } else { light.name.clone() };
             let place = (light.object_from_light, shape.origin);
             lights.push(spawn_light(name, light.light, place, Some(frame), world));
+        }
+        if let Some(mut animation) = world.get_mut::<ModelAnimation>(frame) {
+            animation.lights = lights[lights.len() - shape.lights.len()..].to_vec();
         }
     }
     lights

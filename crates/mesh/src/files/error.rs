@@ -105,12 +105,14 @@ pub enum LoadError {
         skipped: Option<String>,
     },
     /// A glTF file cannot be shown rightly without an extension of the format that is not supported.
-    #[error("{}: the extension {extension} is required, which is not supported", path.display())]
+    #[error("{}: the extension {extension} is required, which is not supported{remedy}", path.display())]
     RequiredExtension {
         /// The file.
         path: PathBuf,
         /// The extension's name.
         extension: String,
+        /// What writes the file without it, after a semicolon; empty where nothing is known to.
+        remedy: &'static str,
     },
 }
 

@@ -1,11 +1,15 @@
 //! Shared by the tests of files.
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
+mod gltf_file;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use halfway_mesh::Model;
+use halfway_mesh::{Animations, Model, Pose, PosedPart};
+
+pub(crate) use self::gltf_file::GltfFile;
 
 /// A folder of the test's own, removed at the end.
 pub(crate) struct Folder(PathBuf);
@@ -68,7 +72,28 @@ pub(crate) fn check_model(model: &Model) {
     }
     assert!(model.lights.iter().all(|light| light.world_from_light.is_finite()));
     assert!(model.cameras.iter().all(|camera| camera.world_from_camera.is_finite()));
+    model.animations.iter().for_each(|animations| check_poses(model, animations));
     assert!(model.bounds().is_some_and(|bounds| bounds.min.is_finite() && bounds.max.is_finite()));
+}
+
+/// Checks that a model stays valid in its first animations.
+fn check_poses(model: &Model, animations: &Animations) {
+    for (clip, times) in animations.clips().iter().enumerate().take(2) {
+        for time in [0.0, 0.4 * times.duration, times.duration, 1e9] {
+            let Pose { parts, lines, lights, cameras } = animations.pose(clip, time);
+            for PosedPart { part, world_from_part, mesh } in parts {
+                assert!(world_from_part.is_finite());
+                let still = &model.parts[part].mesh;
+                assert!(mesh.is_none_or(|mesh| {
+                    let are_unit = mesh.normals().iter().all(|n| (n.length() - 1.0).abs() < 1e-6);
+                    are_unit && mesh.shares_triangles(still) && mesh.positions().iter().all(|p| p.is_finite())
+                }));
+            }
+            assert!(lines.iter().all(|(index, place)| *index < model.lines.len() && place.is_finite()));
+            assert!(lights.iter().all(|(index, place)| *index < model.lights.len() && place.is_finite()));
+            assert!(cameras.iter().all(|(index, place)| *index < model.cameras.len() && place.is_finite()));
+        }
+    }
 }
 
 /// A binary glTF file.

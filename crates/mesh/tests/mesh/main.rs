@@ -7,6 +7,8 @@ mod common;
 mod displace;
 mod files;
 mod gltf;
+mod gltf_animation;
+mod gltf_legal;
 mod lines;
 mod lod;
 mod mesh;

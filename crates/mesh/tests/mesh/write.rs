@@ -100,6 +100,7 @@ fn scene() -> Model {
             double_sided: true,
             unlit: true,
             alpha: AlphaMode::Mask { cutoff: 0.3 },
+            specular_glossiness: None,
             maps: GltfMaps::default(),
         }),
         SourceMaterial::Mtl(MtlMaterial {

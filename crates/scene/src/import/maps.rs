@@ -22,6 +22,7 @@ pub(crate) fn maps(source: &SourceMaterial) -> Vec<(MapKind, &SourceMap)> {
             let GltfMaps { base_color, emissive, occlusion, normal } = &gltf.maps;
             vec![
                 (MapKind::Color, base_color),
+                (MapKind::Specular, gltf.specular_glossiness.as_ref().map_or(&None, |specular| &specular.map)),
                 (MapKind::Emission, emissive),
                 (MapKind::Occlusion, occlusion),
                 (MapKind::Normal, normal),

@@ -1,8 +1,8 @@
-//! glTF 2.0 metallic-roughness materials.
+//! glTF 2.0 metallic-roughness materials, and those of `KHR_materials_pbrSpecularGlossiness`.
 
 use bevy_color::LinearRgba;
 use halfway_lighting::{Fields, InvalidValue, Material};
-use halfway_mesh::{AlphaMode, MetallicRoughness};
+use halfway_mesh::{AlphaMode, MetallicRoughness, SpecularGlossiness};
 
 /// The reflectance of a dielectric at normal incidence that glTF assumes (index of refraction 1.5).
 pub const DIELECTRIC_REFLECTANCE: f32 = 0.04;
@@ -32,6 +32,10 @@ pub const SHININESS_MAX: f32 = 10_000.0;
 ///
 /// Of an unlit one (`KHR_materials_unlit`), which shows its base color as it is, the diffuse color is c.
 ///
+/// `KHR_materials_pbrSpecularGlossiness` names the reflectance itself: f₀ is its specular color, ρ is 1 less its
+/// glossiness, the diffuse color is c·(1 − max f₀), as the extension has it, and the ambient one the larger of the diffuse
+/// color and f₀, channel by channel.
+///
 /// Left out: the Fresnel rise toward grazing angles, the masking term, and reflections of the surroundings. A metal
 /// therefore is darker than in a path tracer: it shows only highlights and ambient light.
 ///
@@ -43,12 +47,22 @@ pub fn from_metallic_roughness(source: &MetallicRoughness) -> Result<Material, I
     let base = [red, green, blue];
     let metallic = if source.unlit { 0.0 } else { source.metallic };
     let shininess = shininess_from_roughness(source.roughness);
-    let f0 = base.map(|c| DIELECTRIC_REFLECTANCE + (c - DIELECTRIC_REFLECTANCE) * metallic);
+    let (diffuse, f0, ambient) = match source.specular_glossiness.as_ref().filter(|_| !source.unlit) {
+        Some(SpecularGlossiness { specular: f0, .. }) => {
+            let left = 1.0 - f0[0].max(f0[1]).max(f0[2]);
+            let diffuse = base.map(|c| c * left);
+            (diffuse, *f0, std::array::from_fn(|i| diffuse[i].max(f0[i])))
+        }
+        None => {
+            let f0 = base.map(|c| DIELECTRIC_REFLECTANCE + (c - DIELECTRIC_REFLECTANCE) * metallic);
+            (base.map(|c| c * (1.0 - metallic)), f0, base)
+        }
+    };
     let largest = f0[0].max(f0[1]).max(f0[2]);
     // A black metal reflects nothing: its peak is 0 whatever the factor.
     let peak = if largest > 0.0 { ((shininess + 8.0) / 8.0).min(largest.recip()).max(1.0) } else { 1.0 };
     let material = Material {
-        ambient: color(base),
+        ambient: color(ambient),
         specular: color(f0.map(|f| f * peak)),
         emission: color(source.emissive),
         shininess,
@@ -56,7 +70,7 @@ pub fn from_metallic_roughness(source: &MetallicRoughness) -> Result<Material, I
             AlphaMode::Opaque => 1.0,
             AlphaMode::Mask { .. } | AlphaMode::Blend => alpha,
         },
-        ..Material::matte(color(base.map(|c| c * (1.0 - metallic))))
+        ..Material::matte(color(diffuse))
     };
     material.validate().map(|()| material)
 }
@@ -81,6 +95,12 @@ fn check(source: &MetallicRoughness) -> Result<(), InvalidValue> {
     fields.unit_interval("metallic", source.metallic)?;
     fields.unit_interval("roughness", source.roughness)?;
     fields.channels("emissive", source.emissive)?;
+    if let Some(SpecularGlossiness { specular, glossiness, .. }) = &source.specular_glossiness {
+        for channel in *specular {
+            fields.unit_interval("specular_glossiness.specular", channel)?;
+        }
+        fields.unit_interval("specular_glossiness.glossiness", *glossiness)?;
+    }
     match source.alpha {
         AlphaMode::Mask { cutoff } => fields.non_negative("alpha.cutoff", cutoff),
         AlphaMode::Opaque | AlphaMode::Blend => Ok(()),

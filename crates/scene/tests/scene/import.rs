@@ -5,7 +5,9 @@ use core::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 use bevy_color::LinearRgba;
 use bevy_math::Mat4;
 use halfway_lighting::{Attenuation, Cone, DirectionalLight, Material, PointLight, SpotLight};
-use halfway_mesh::{AlphaMode, GltfMaps, MetallicRoughness, MtlMaterial, SourceLight, SourceLightKind};
+use halfway_mesh::{
+    AlphaMode, GltfMaps, MetallicRoughness, MtlMaterial, SourceLight, SourceLightKind, SpecularGlossiness,
+};
 use halfway_scene::LightComponent;
 use halfway_scene::import::{
     RADIANCE_SCALE, SHININESS_MAX, Warning, from_metallic_roughness, from_mtl, from_punctual, shininess_from_roughness,
@@ -31,6 +33,7 @@ fn bare() -> MetallicRoughness {
         double_sided: false,
         unlit: false,
         alpha: AlphaMode::Opaque,
+        specular_glossiness: None,
         maps: GltfMaps::default(),
     }
 }
@@ -383,4 +386,42 @@ fn punctual_nonsense_is_refused_by_field() {
         assert_eq!(from_punctual(&numbers, 1.0).expect_err(message).to_string(), message);
     }
     from_punctual(&point, f32::NAN).expect_err("a scale that is not a number");
+}
+
+#[test]
+fn specular_glossiness_keeps_its_reflectance() {
+    let of = |base: [f32; 3], specular: [f32; 3], glossiness: f32| {
+        let [red, green, blue] = base;
+        from_metallic_roughness(&MetallicRoughness {
+            base_color: [red, green, blue, 1.0],
+            metallic: 0.0,
+            roughness: 1.0 - glossiness,
+            specular_glossiness: Some(SpecularGlossiness { specular, glossiness, map: None }),
+            ..bare()
+        })
+    };
+    // With the reflectance of a dielectric it is about the same as without the extension: c·(1 − 0.04) for c.
+    let plastic = of([0.5, 0.25, 0.0], [0.04; 3], 0.5).expect("valid");
+    let same = from_metallic_roughness(&MetallicRoughness {
+        base_color: [0.5, 0.25, 0.0, 1.0],
+        metallic: 0.0,
+        roughness: 0.5,
+        ..bare()
+    });
+    let same = same.expect("valid");
+    assert_eq!((plastic.specular, plastic.shininess), (same.specular, same.shininess));
+    let expected = color([0.5 * 0.96, 0.25 * 0.96, 0.0]);
+    assert_eq!(plastic.diffuse, expected);
+    // A metal: no diffuse color, and ambient light by its reflectance.
+    let gold = of([0.0; 3], [1.0, 0.5, 0.25], 0.75).expect("valid");
+    assert_eq!(
+        (gold.diffuse, gold.ambient, gold.specular),
+        (color([0.0; 3]), color([1.0, 0.5, 0.25]), color([1.0, 0.5, 0.25]))
+    );
+    for (specular, glossiness, field) in
+        [([2.0, 0.0, 0.0], 0.5, "specular_glossiness.specular"), ([0.0; 3], -1.0, "roughness")]
+    {
+        let error = of([1.0; 3], specular, glossiness).unwrap_err().to_string();
+        assert!(error.contains(field), "{error}");
+    }
 }

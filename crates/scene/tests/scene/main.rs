@@ -16,6 +16,7 @@ mod far;
 mod fuzzed;
 mod import;
 mod maps;
+mod model_animation;
 mod model_root;
 mod past_failures;
 mod retired;

@@ -39,6 +39,27 @@ pub(super) const TEXCOORD: Attribute =
 pub(super) const COLOR: Attribute =
     Attribute { shapes: &[Dimensions::Vec3, Dimensions::Vec4], types: &[F32, U8, U16], quantized: &[], plain: false };
 
+/// Times of key frames.
+pub(super) const TIME: Attribute =
+    Attribute { shapes: &[Dimensions::Scalar], types: &[F32], quantized: &[], plain: false };
+/// Translations and scales.
+pub(super) const LENGTHS: Attribute =
+    Attribute { shapes: &[Dimensions::Vec3], types: &[F32], quantized: &[], plain: false };
+/// Rotations.
+pub(super) const TURN: Attribute =
+    Attribute { shapes: &[Dimensions::Vec4], types: &[F32, I8, U8, I16, U16], quantized: &[], plain: false };
+/// Weights of morph targets, in time.
+pub(super) const WEIGHT: Attribute =
+    Attribute { shapes: &[Dimensions::Scalar], types: &[F32, I8, U8, I16, U16], quantized: &[], plain: false };
+/// Weights of joints.
+pub(super) const WEIGHTS: Attribute =
+    Attribute { shapes: &[Dimensions::Vec4], types: &[F32, U8, U16], quantized: &[], plain: false };
+pub(super) const MATRIX: Attribute =
+    Attribute { shapes: &[Dimensions::Mat4], types: &[F32], quantized: &[], plain: false };
+/// Displacements of morph targets.
+pub(super) const DISPLACEMENT: Attribute =
+    Attribute { shapes: &[Dimensions::Vec3], types: &[F32], quantized: &[I8, I16], plain: true };
+
 /// Measures accessors and finds their data.
 ///
 /// The meshes made of them are counted against a budget in proportion to the buffers, so that a small file whose
@@ -159,6 +180,27 @@ impl<'a> Accessors<'a> {
             return Err(Fault::element(name(accessor), "normalized false", expected));
         }
         self.items(accessor)
+    }
+
+    /// The joints of vertices: four a vertex.
+    pub(super) fn joints(&mut self, accessor: &Accessor) -> Result<Items<'a>, Fault> {
+        expect(accessor, &[Dimensions::Vec4], &[U8, U16])?;
+        self.items(accessor)
+    }
+
+    /// All the items of an attribute, of `N` numbers each.
+    pub(super) fn floats<const N: usize>(
+        &mut self,
+        accessor: &Accessor,
+        attribute: &Attribute,
+    ) -> Result<Vec<[f32; N]>, Fault> {
+        let items = self.attribute(accessor, attribute)?;
+        self.spend(&|| name(accessor), items.count.saturating_mul(size_of::<[f32; N]>()))?;
+        let floats = items.floats(&Which::All, |numbers| numbers);
+        match floats.as_flattened().iter().find(|x: &&f32| !x.is_finite()) {
+            None => Ok(floats),
+            Some(found) => Err(Fault::element(name(accessor), found.to_string(), "finite numbers are")),
+        }
     }
 
     /// The indices of a primitive.
@@ -332,7 +374,7 @@ struct ItemRun {
     item: usize,
 }
 
-fn name(accessor: &Accessor) -> String {
+pub(super) fn name(accessor: &Accessor) -> String {
     format!("accessors[{}]", accessor.index())
 }
 

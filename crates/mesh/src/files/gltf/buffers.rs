@@ -1,6 +1,7 @@
 //! The bytes that a glTF file describes: in the file, in a data URI or in a file beside it.
 
 use std::borrow::Cow;
+use std::path::PathBuf;
 
 use base64::Engine as _;
 use base64::alphabet::STANDARD;
@@ -69,11 +70,13 @@ fn binary_chunk<'a>(buffer: &Buffer, binary: &mut Option<&'a [u8]>) -> Result<&'
     })
 }
 
+/// The bytes of a data URI: base64, or text with `%20` and the like (RFC 2397).
 fn data_uri(name: &str, data: &str) -> Result<Vec<u8>, Fault> {
-    let (head, body) = data.split_once(',').unwrap_or((data, ""));
+    let Some((head, body)) = data.split_once(',') else {
+        return Err(Fault::element(name.to_owned(), "a data uri without a comma", "one before the data is"));
+    };
     if !head.ends_with(";base64") {
-        let expected = "a data uri in base64 is";
-        return Err(Fault::element(name.to_owned(), "another data uri", expected));
+        return Ok(percent_decoded(body));
     }
     BASE64.decode(body).map_err(|error| Fault::element(name.to_owned(), error.to_string(), "base64 is"))
 }
@@ -83,29 +86,34 @@ fn file(name: &str, uri: &str, around: ModelFolder) -> Result<Vec<u8>, Fault> {
         let expected = "a file in the folder of the model, or in one inside it, is";
         Fault::element(name.to_owned(), format!("uri {:?}", abridged(uri, "")), expected)
     };
-    let decoded = percent_decoded(uri).ok_or_else(refused)?;
-    // A colon makes a scheme, or a drive; a backslash separates folders on some systems and not on others.
-    if decoded.contains([':', '\\']) {
-        return Err(refused());
-    }
-    let path = around.find(&decoded).ok_or_else(refused)?;
+    let decoded = String::from_utf8(percent_decoded(uri)).ok();
+    let path = decoded.and_then(|decoded| place(&decoded, around)).ok_or_else(refused)?;
+    // Some programs write the names of files as they are, so that what looks like an escape is part of a name.
+    let raw = || place(uri, around).filter(|raw| raw.is_file());
+    let path = if path.exists() { path } else { raw().unwrap_or(path) };
     around.open(&path).and_then(Reader::whole).map_err(Fault::Elsewhere)
 }
 
-/// `%20` and the like resolved (RFC 3986 §2.1); `None` where a `%` has no two hexadecimal digits after it, or where
-/// the result is not UTF-8 or holds a zero byte.
-fn percent_decoded(uri: &str) -> Option<String> {
+/// The path of a file, if it may be read. A colon makes a scheme, or a drive; a backslash separates folders on some systems
+/// and not on others.
+fn place(name: &str, around: ModelFolder) -> Option<PathBuf> {
+    if name.contains([':', '\\', '\0']) { None } else { around.find(name) }
+}
+
+/// `%20` and the like resolved (RFC 3986 §2.1). A `%` without two hexadecimal digits after it stands for itself.
+fn percent_decoded(uri: &str) -> Vec<u8> {
+    let digit = |byte: &u8| char::from(*byte).to_digit(16);
     let mut decoded = Vec::with_capacity(uri.len());
-    let mut rest = uri.bytes();
-    while let Some(byte) = rest.next() {
-        decoded.push(if byte == b'%' {
-            let digit = |byte: u8| char::from(byte).to_digit(16);
-            (digit(rest.next()?)? * 16 + digit(rest.next()?)?) as u8
-        } else {
-            byte
-        });
+    let mut rest = uri.as_bytes();
+    while let [byte, after @ ..] = rest {
+        let escape = match after {
+            [high, low, ..] if *byte == b'%' => digit(high).zip(digit(low)),
+            _ => None,
+        };
+        decoded.push(escape.map_or(*byte, |(high, low)| (high * 16 + low) as u8));
+        rest = if escape.is_some() { &after[2..] } else { after };
     }
-    String::from_utf8(decoded).ok().filter(|text| !text.contains('\0'))
+    decoded
 }
 
 #[cfg(test)]
@@ -115,16 +123,19 @@ mod tests {
     #[test]
     fn percent_decoding() {
         for (uri, decoded) in [
-            ("a.bin", Some("a.bin")),
-            ("my%20file.bin", Some("my file.bin")),
-            ("%2e%2E/a", Some("../a")),
-            ("%C3%A9", Some("é")),
-            ("%E9", None),
-            ("%2", None),
-            ("%zz", None),
-            ("a%00", None),
+            ("a.bin", &b"a.bin"[..]),
+            ("my%20file.bin", b"my file.bin"),
+            ("%2e%2E/a", b"../a"),
+            ("%C3%A9", "é".as_bytes()),
+            ("%E9", b"\xE9"),
+            ("10%", b"10%"),
+            ("10%.bin", b"10%.bin"),
+            ("%2", b"%2"),
+            ("%zz%20", b"%zz "),
+            ("%%41", b"%A"),
+            ("a%00", b"a\0"),
         ] {
-            assert_eq!(percent_decoded(uri).as_deref(), decoded, "{uri}");
+            assert_eq!(percent_decoded(uri), decoded, "{uri}");
         }
     }
 }

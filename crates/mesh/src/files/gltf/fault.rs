@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::extensions;
 use crate::MeshError;
 use crate::files::LoadError;
 
@@ -42,7 +43,9 @@ impl Fault {
         match self {
             Self::Element { element, found, expected } => LoadError::Element { path, element, found, expected },
             Self::Mesh { element, source } => LoadError::Mesh { path, element, source },
-            Self::RequiredExtension(extension) => LoadError::RequiredExtension { path, extension },
+            Self::RequiredExtension(extension) => {
+                LoadError::RequiredExtension { path, remedy: extensions::remedy(&extension), extension }
+            }
             Self::Elsewhere(error) => error,
         }
     }

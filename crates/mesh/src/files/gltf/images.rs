@@ -4,18 +4,24 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use gltf::image::Source;
+use gltf::json::Root;
+use gltf::json::buffer::View;
 use gltf::json::extensions::texture::TextureTransform;
+use gltf::json::image::Image;
+use gltf::json::validation::USize64;
 use gltf::texture::{Info, MagFilter, MinFilter, WrappingMode};
 use serde_json::Value;
 
 use super::buffers::from_uri;
+use super::extensions::{BASISU, WEBP};
 use super::fault::Fault;
 use crate::files::source::ModelFolder;
 use crate::{SourceLevels, SourceMap, SourceWrap};
 
 /// The extension that says where texture coordinates lie on an image.
 pub(super) const TRANSFORM: &str = "KHR_texture_transform";
+
+const NO_SUCH: &str = "its extension names an image that is not there";
 
 /// The lookup of an image by a material.
 pub(super) struct Lookup {
@@ -47,6 +53,8 @@ impl TexturePlace {
 
 /// Reads each image once, when a material first refers to it; an unreadable image is a warning.
 pub(super) struct Images<'a> {
+    images: &'a [Image],
+    views: &'a [View],
     buffers: &'a [Cow<'a, [u8]>],
     around: ModelFolder<'a>,
     read: HashMap<usize, Arc<[u8]>>,
@@ -56,8 +64,9 @@ pub(super) struct Images<'a> {
 }
 
 impl<'a> Images<'a> {
-    pub(super) fn new(buffers: &'a [Cow<'a, [u8]>], around: ModelFolder<'a>) -> Self {
-        Self { buffers, around, read: HashMap::new(), warnings: Vec::new(), used: Vec::new() }
+    pub(super) fn new(json: &'a Root, buffers: &'a [Cow<'a, [u8]>], around: ModelFolder<'a>) -> Self {
+        let (images, views) = (&json.images, &json.buffer_views);
+        Self { images, views, buffers, around, read: HashMap::new(), warnings: Vec::new(), used: Vec::new() }
     }
 
     /// Warns of a texture of a material that is not read, and of the consequence.
@@ -81,14 +90,20 @@ impl<'a> Images<'a> {
             return None;
         }
         self.used.push(texture.index());
-        let image = texture.source();
-        let name = match image.source() {
-            Source::Uri { uri, .. } if !uri.starts_with("data:") => uri.to_owned(),
-            _ => format!("images[{}]", image.index()),
+        let image = match self.source(texture) {
+            Ok(image) => image,
+            Err(reason) => {
+                self.warnings.push(format!("materials[{material}]: the {field} texture is skipped, since {reason}"));
+                return None;
+            }
         };
-        let bytes = match self.read.get(&image.index()) {
+        let name = match &self.images[image].uri {
+            Some(uri) if !uri.starts_with("data:") => uri.clone(),
+            _ => format!("images[{image}]"),
+        };
+        let bytes = match self.read.get(&image) {
             Some(bytes) => Arc::clone(bytes),
-            None => self.bytes(&name, &image),
+            None => self.bytes(&name, image),
         };
         let sampler = texture.sampler();
         let wrap = |mode| match mode {
@@ -119,15 +134,46 @@ impl<'a> Images<'a> {
         Some(map)
     }
 
-    fn bytes(&mut self, name: &str, image: &gltf::Image) -> Arc<[u8]> {
-        let read = match image.source() {
-            Source::View { view, .. } => {
-                let bytes = self.buffers.get(view.buffer().index());
-                let end = view.offset().checked_add(view.length());
-                let part = bytes.zip(end).and_then(|(bytes, end)| bytes.get(view.offset()..end));
+    /// The image of a texture: that of an extension where it can be decoded, else the texture's own. Otherwise the reason.
+    fn source(&mut self, texture: &gltf::Texture) -> Result<usize, String> {
+        let of_extension = |extension| {
+            let source = texture.extension_value(extension)?.get("source")?;
+            Some(source.as_u64().and_then(|source| usize::try_from(source).ok()).unwrap_or(usize::MAX))
+        };
+        let (own, basis) = (texture.source().map(|image| image.index()), of_extension(BASISU));
+        if let Some(image) = of_extension(WEBP) {
+            return if image < self.images.len() { Ok(image) } else { own.ok_or_else(|| NO_SUCH.to_owned()) };
+        }
+        let index = texture.index();
+        match (own, basis) {
+            (Some(own), Some(_)) => {
+                let instead = "the image for programs without Basis Universal";
+                self.warnings.push(format!("textures[{index}]: {instead} is shown, since {BASISU} is not decoded"));
+                Ok(own)
+            }
+            (Some(own), None) => Ok(own),
+            (None, Some(_)) => Err(format!(
+                "textures[{index}] is in Basis Universal ({BASISU}), which is not decoded; `ktx extract` gets a PNG out of it"
+            )),
+            (None, None) => Err(format!("textures[{index}] has no source")),
+        }
+    }
+
+    fn bytes(&mut self, name: &str, index: usize) -> Arc<[u8]> {
+        let image = &self.images[index];
+        let read = match (&image.uri, image.buffer_view) {
+            (_, Some(view)) => {
+                let view = &self.views[view.value()];
+                let whole = |size: USize64| usize::try_from(size.0).ok();
+                let start = view.byte_offset.map_or(Some(0), whole);
+                let range = start
+                    .zip(whole(view.byte_length))
+                    .and_then(|(start, length)| Some(start..start.checked_add(length)?));
+                let part = range.and_then(|range| self.buffers.get(view.buffer.value())?.get(range));
                 part.map(<[u8]>::to_vec).ok_or_else(|| "its buffer view reaches beyond its buffer".to_owned())
             }
-            Source::Uri { uri, .. } => from_uri(name, uri, self.around).map_err(Fault::reason),
+            (Some(uri), None) => from_uri(name, uri, self.around).map_err(Fault::reason),
+            (None, None) => Err("it has neither a uri nor a bufferView".to_owned()),
         };
         let bytes: Arc<[u8]> = read.map_or_else(
             |reason| {
@@ -136,7 +182,7 @@ impl<'a> Images<'a> {
             },
             Into::into,
         );
-        self.read.insert(image.index(), Arc::clone(&bytes));
+        self.read.insert(index, Arc::clone(&bytes));
         bytes
     }
 }

@@ -1,36 +1,45 @@
 //! Primitives: the meshes of glTF.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{DMat4, Vec2, Vec3, Vec4};
 use gltf::Primitive;
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
 
 use super::accessor::{self, Accessors, Attribute, Items, Which};
 use super::fault::Fault;
+use crate::animation::{Influences, MorphTarget, Moved, Shape};
 use crate::numbering::Numbering;
 use crate::{Lines, Mesh, MeshError};
 
 /// Bytes of a vertex (position, normal, two uvs, colour, tangent) and of an index in a mesh.
 const VERTEX: usize = 72;
 const INDEX: usize = 4;
+/// Bytes of a vertex that is moved: position, normal and tangent, and the first two also in f64.
+const MOVED: usize = 88;
 
 /// The content of a primitive.
 #[derive(Clone)]
 pub(super) enum PrimitiveShape {
-    Mesh(Mesh),
+    /// With its vertices and what moves them, where something does.
+    Mesh(Mesh, Option<Arc<Shape>>),
     Lines(Lines),
+    /// It has no positions.
+    Nothing,
 }
 
 /// Makes meshes of primitives, each once, however many nodes show it.
 pub(super) struct Primitives<'a> {
-    accessors: Accessors<'a>,
+    pub(super) accessors: Accessors<'a>,
     /// By the numbers of mesh and primitive.
     shapes: HashMap<(usize, usize), PrimitiveShape>,
     warnings: Vec<String>,
     without_normals: usize,
-    with_targets: usize,
+    without_positions: usize,
+    without_bounds: usize,
+    with_stiff_lines: usize,
     with_more: usize,
     with_bad_tangents: usize,
     with_idle_uvs: usize,
@@ -43,7 +52,9 @@ impl<'a> Primitives<'a> {
             shapes: HashMap::new(),
             warnings: Vec::new(),
             without_normals: 0,
-            with_targets: 0,
+            without_positions: 0,
+            without_bounds: 0,
+            with_stiff_lines: 0,
             with_more: 0,
             with_bad_tangents: 0,
             with_idle_uvs: 0,
@@ -58,7 +69,13 @@ impl<'a> Primitives<'a> {
                 "",
                 " primitives have no normals; smooth ones are computed, where glTF asks for flat ones",
             ),
-            (self.with_targets, "the morph targets of ", " primitives are skipped"),
+            (self.without_positions, "", " primitives have no positions and are skipped"),
+            (
+                self.without_bounds,
+                "the positions of ",
+                " primitives have no least and greatest values, which glTF asks for; they are computed",
+            ),
+            (self.with_stiff_lines, "the morph targets and joints of ", " primitives of lines or points are skipped"),
             (
                 self.with_more,
                 "of ",
@@ -85,11 +102,22 @@ impl<'a> Primitives<'a> {
             return Ok(known.clone());
         }
         let element = format!("meshes[{mesh}].primitives[{}]", primitive.index());
+        let Some(positions) = primitive.get(&Semantic::Positions) else {
+            self.without_positions += 1;
+            self.shapes.insert(key, PrimitiveShape::Nothing);
+            return Ok(PrimitiveShape::Nothing);
+        };
+        self.without_bounds += usize::from(positions.min().is_none() || positions.max().is_none());
         let made = match primitive.mode() {
             Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {
-                PrimitiveShape::Mesh(self.make(&element, primitive)?)
+                let (mesh, shape) = self.make(&element, primitive)?;
+                PrimitiveShape::Mesh(mesh, shape)
             }
-            _ => PrimitiveShape::Lines(self.make_lines(&element, primitive)?),
+            _ => {
+                let is_stiff = primitive.morph_targets().len() > 0 || primitive.get(&Semantic::Joints(0)).is_some();
+                self.with_stiff_lines += usize::from(is_stiff);
+                PrimitiveShape::Lines(self.make_lines(&element, primitive)?)
+            }
         };
         self.shapes.insert(key, made.clone());
         Ok(made)
@@ -120,7 +148,6 @@ impl<'a> Primitives<'a> {
         // Tangents of the file belong to normals of the file.
         let tangents = attribute(Semantic::Tangents, &accessor::TANGENT, "tangent")?.filter(|_| normals.is_some());
         self.without_normals += usize::from(normals.is_none() && !is_lines(primitive.mode()));
-        self.with_targets += usize::from(primitive.morph_targets().len() > 0);
         let is_more = |semantic| matches!(semantic, Semantic::TexCoords(2..) | Semantic::Colors(1..));
         self.with_more += usize::from(primitive.attributes().any(|(semantic, _)| is_more(semantic)));
         Ok(Attributes { normals, uvs, second_uvs, colors, tangents })
@@ -155,10 +182,7 @@ impl<'a> Primitives<'a> {
             }));
         }
         let (which, numbers) = used_vertices(uses, vertices).map_err(invalid)?;
-        let used = match &which {
-            Which::All => vertices,
-            Which::These(these) => these.len(),
-        };
+        let used = count(&which, vertices);
         self.accessors.spend(&|| element.to_owned(), used * VERTEX + numbers.len() * INDEX)?;
         let Attributes { normals, uvs, colors, .. } = self.attributes(element, primitive, vertices)?;
         self.with_idle_uvs += usize::from(uvs.is_some());
@@ -178,20 +202,18 @@ impl<'a> Primitives<'a> {
         Ok(lines)
     }
 
-    fn make(&mut self, element: &str, primitive: &Primitive<'a>) -> Result<Mesh, Fault> {
+    fn make(&mut self, element: &str, primitive: &Primitive<'a>) -> Result<(Mesh, Option<Arc<Shape>>), Fault> {
         let invalid = |source: MeshError| Fault::Mesh { element: element.to_owned(), source };
         let (positions, corners) = self.corners(element, primitive)?;
         let vertices = positions.count;
         let indices = triangles(primitive.mode(), corners);
         let (which, indices) = used_vertices(indices, vertices).map_err(invalid)?;
-        let used = match &which {
-            Which::All => vertices,
-            Which::These(these) => these.len(),
-        };
+        let used = count(&which, vertices);
         self.accessors.spend(&|| element.to_owned(), used * VERTEX + indices.len() * INDEX)?;
 
         let Attributes { normals, uvs, second_uvs, colors, tangents } =
             self.attributes(element, primitive, vertices)?;
+        let has_normals = normals.is_some();
         let (mesh, report) = Mesh::from_parts_reported(
             positions.floats(&which, Vec3::from_array),
             normals.map(|normals| normals.floats(&which, Vec3::from_array)),
@@ -210,13 +232,96 @@ impl<'a> Primitives<'a> {
             Some(colors) => mesh.with_colors(colors).map_err(invalid)?,
             None => mesh,
         };
-        match tangents.map(|tangents| tangents.floats(&which, Vec4::from_array)) {
-            Some(tangents) if tangents.iter().all(is_tangent) => Ok(mesh.with_given_tangents(tangents)),
+        let mesh = match tangents.map(|tangents| tangents.floats(&which, Vec4::from_array)) {
+            Some(tangents) if tangents.iter().all(is_tangent) => mesh.with_given_tangents(tangents),
             tangents => {
                 self.with_bad_tangents += usize::from(tangents.is_some());
-                Ok(mesh)
+                mesh
             }
+        };
+        let targets = self.targets(element, primitive, (vertices, &which))?;
+        let influences = self.influences(element, primitive, (vertices, &which))?;
+        let moves = !targets.is_empty() || influences.is_some();
+        let shape = moves.then(|| Arc::new(Shape { mesh: mesh.clone(), has_normals, targets, influences }));
+        Ok((mesh, shape))
+    }
+
+    /// The morph targets of a primitive.
+    fn targets(
+        &mut self,
+        element: &str,
+        primitive: &Primitive<'a>,
+        (vertices, which): (usize, &Which),
+    ) -> Result<Vec<MorphTarget>, Fault> {
+        let used = count(which, vertices);
+        let mut targets = Vec::new();
+        for (t, target) in primitive.morph_targets().enumerate() {
+            let element = || format!("{element}.targets[{t}]");
+            self.accessors.spend(&element, size_of::<MorphTarget>())?;
+            let mut list = |accessor: Option<gltf::Accessor<'a>>, attribute: &'static str| {
+                let Some(accessor) = accessor else { return Ok(Vec::new()) };
+                let items = self.accessors.attribute(&accessor, &accessor::DISPLACEMENT)?;
+                if items.count != vertices {
+                    let source = MeshError::CountMismatch { attribute, found: items.count, expected: vertices };
+                    return Err(Fault::Mesh { element: element(), source });
+                }
+                self.accessors.spend(&element, used * size_of::<Vec3>())?;
+                let list = items.floats(which, Vec3::from_array);
+                match list.iter().position(|v| !v.is_finite()) {
+                    None => Ok(list),
+                    Some(vertex) => {
+                        let source = MeshError::NotFinite { attribute, vertex, value: list[vertex].to_array() };
+                        Err(Fault::Mesh { element: element(), source })
+                    }
+                }
+            };
+            let positions = list(target.positions(), "position")?;
+            let normals = list(target.normals(), "normal")?;
+            let tangents = list(target.tangents(), "tangent")?;
+            targets.push(MorphTarget { positions, normals, tangents });
         }
+        Ok(targets)
+    }
+
+    /// The joints and weights of a primitive, if it has both.
+    fn influences(
+        &mut self,
+        element: &str,
+        primitive: &Primitive<'a>,
+        (vertices, which): (usize, &Which),
+    ) -> Result<Option<Influences>, Fault> {
+        let used = count(which, vertices);
+        let mut sets = Vec::new();
+        for set in 0.. {
+            let found = primitive.get(&Semantic::Joints(set)).zip(primitive.get(&Semantic::Weights(set)));
+            let Some((joints, weights)) = found else { break };
+            let joints = self.accessors.joints(&joints)?;
+            let weights = self.accessors.attribute(&weights, &accessor::WEIGHTS)?;
+            for (attribute, found) in [("joint", joints.count), ("weight", weights.count)] {
+                if found != vertices {
+                    let source = MeshError::CountMismatch { attribute, found, expected: vertices };
+                    return Err(Fault::Mesh { element: element.to_owned(), source });
+                }
+            }
+            // Once here and once among the influences.
+            self.accessors.spend(&|| element.to_owned(), used * 2 * size_of::<([u16; 4], [f32; 4])>())?;
+            // Whole numbers of 16 bits are exact in f32.
+            let joints = joints.floats(which, |four: [f32; 4]| four.map(|joint| joint as u16));
+            sets.push((joints, weights.floats(which, |four: [f32; 4]| four)));
+        }
+        Ok((!sets.is_empty()).then(|| Influences::new(&sets)))
+    }
+
+    /// The mesh of a shape that is moved, and its vertices in f64.
+    pub(super) fn moved(
+        &mut self,
+        element: &str,
+        shape: &Shape,
+        (weights, joints): (&[f32], Option<&[DMat4]>),
+    ) -> Result<Moved, Fault> {
+        // A mesh of its own, and the vertices in f64 meanwhile.
+        self.accessors.spend(&|| element.to_owned(), shape.mesh.positions().len() * MOVED)?;
+        Ok(shape.moved(weights, joints))
     }
 }
 
@@ -238,6 +343,14 @@ fn rgba(colors: &Items, which: &Which) -> Vec<Vec4> {
 /// Quantised to bytes a unit vector's length is off by up to 1 %.
 fn is_tangent(tangent: &Vec4) -> bool {
     (tangent.truncate().length() - 1.0).abs() < 0.02 && (tangent.w.abs() - 1.0).abs() < f32::EPSILON
+}
+
+/// How many vertices these are, of so many in all.
+fn count(which: &Which, vertices: usize) -> usize {
+    match which {
+        Which::All => vertices,
+        Which::These(these) => these.len(),
+    }
 }
 
 fn is_lines(mode: Mode) -> bool {

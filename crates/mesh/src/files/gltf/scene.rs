@@ -1,44 +1,50 @@
-//! The node tree: the world transforms of meshes and lights.
+//! The node tree: the world transforms of meshes, lights and cameras.
 
-use glam::{DMat4, DQuat, DVec3, Mat4, Vec4};
+use std::sync::Arc;
+
+use glam::{DMat4, Mat4};
 use gltf::camera::{Camera, Projection};
 use gltf::khr_lights_punctual::{Kind, Light};
-use gltf::scene::Transform;
 use gltf::{Document, Node};
 
 use super::fault::{Fault, check_finite};
+use super::nodes::Nodes;
+use super::placed::instances;
 use super::primitive::{PrimitiveShape, Primitives};
+use super::skins::Skins;
+use crate::animation::{Placed, Shape};
 use crate::{LinePart, Part, SourceCamera, SourceLight, SourceLightKind, SourceProjection};
 
 /// The most parts made of one file: nodes and primitives multiply.
 const MOST_PARTS: usize = 1 << 18;
 
-/// How far the last row of a matrix may be from (0, 0, 0, 1): a few roundings of `f32`, as a product or an inverse of
-/// matrices leaves them.
-const ROUNDED: f32 = 1e-5;
-
-/// The meshes, lights and cameras of the scene, in world space.
+/// The meshes, lights and cameras of the scene, each with its place; their own matrices are still to be set.
 #[derive(Default)]
 pub(super) struct Contents {
-    pub(super) parts: Vec<Part>,
-    pub(super) lines: Vec<LinePart>,
-    pub(super) lights: Vec<SourceLight>,
-    pub(super) cameras: Vec<SourceCamera>,
-    /// How many matrices had a last row that was corrected, and the first of them.
-    pub(super) mended: Option<(usize, String)>,
+    pub(super) parts: Vec<(Part, Placed)>,
+    pub(super) lines: Vec<(LinePart, Placed)>,
+    pub(super) lights: Vec<(SourceLight, Placed)>,
+    pub(super) cameras: Vec<(SourceCamera, Placed)>,
+    /// How many meshes of nodes with a skin have no joints.
+    pub(super) without_joints: usize,
 }
 
 /// The contents of the default scene; of the first where none is the default; of all nodes without a parent
 /// where there is no scene.
-pub(super) fn read<'a>(document: &'a Document, primitives: &mut Primitives<'a>) -> Result<Contents, Fault> {
-    let mut reader =
-        SceneReader { primitives, seen: vec![false; document.nodes().len()], contents: Contents::default() };
+pub(super) fn read<'a>(
+    document: &'a Document,
+    nodes: &mut Nodes,
+    primitives: &mut Primitives<'a>,
+) -> Result<Contents, Fault> {
+    let seen = vec![false; document.nodes().len()];
+    let skins = Skins::new(document);
+    let mut reader = SceneReader { document, nodes, primitives, skins, seen, contents: Contents::default() };
     // Children are put on the stack last to first, so that nodes come in the order of the file.
-    let mut stack: Vec<(Node, DMat4)> = roots(document).into_iter().rev().map(|node| (node, DMat4::IDENTITY)).collect();
-    while let Some((node, world_from_parent)) = stack.pop() {
-        let world_from_node = reader.visit(&node, world_from_parent)?;
+    let mut stack: Vec<(Node, Option<usize>)> = roots(document).into_iter().rev().map(|node| (node, None)).collect();
+    while let Some((node, parent)) = stack.pop() {
+        reader.visit(&node, parent)?;
         let children: Vec<Node> = node.children().collect();
-        stack.extend(children.into_iter().rev().map(|child| (child, world_from_node)));
+        stack.extend(children.into_iter().rev().map(|child| (child, Some(node.index()))));
     }
     Ok(reader.contents)
 }
@@ -55,93 +61,80 @@ fn roots(document: &Document) -> Vec<Node<'_>> {
 }
 
 struct SceneReader<'r, 'a> {
+    document: &'a Document,
+    nodes: &'r mut Nodes,
     primitives: &'r mut Primitives<'a>,
+    skins: Skins<'a>,
     seen: Vec<bool>,
     contents: Contents,
 }
 
 impl<'a> SceneReader<'_, 'a> {
-    /// Reads the contents of a node; returns its transform.
-    fn visit(&mut self, node: &Node<'a>, world_from_parent: DMat4) -> Result<DMat4, Fault> {
+    /// Reads the contents of a node.
+    fn visit(&mut self, node: &Node<'a>, parent: Option<usize>) -> Result<(), Fault> {
         let element = || format!("nodes[{}]", node.index());
         if std::mem::replace(&mut self.seen[node.index()], true) {
             let expected = "a tree, in which every node has one parent at most, is";
             return Err(Fault::element(element(), "reached twice", expected));
         }
-        let world_from_node = world_from_parent * parent_from_node(node, &mut self.contents.mended)?;
-        let world = world_from_node.as_mat4();
-        if !world.is_finite() {
-            let found = "a transform that leaves the range of f32";
-            return Err(Fault::element(element(), found, "a smaller one is"));
-        }
+        let place = self.nodes.enter(node.index(), parent)?;
+        let at = || Placed { node: place, node_from_part: DMat4::IDENTITY, shape: None, skin: None };
         if let Some(light) = node.light() {
-            self.contents.lights.push(source_light(node, &light, world)?);
+            self.contents.lights.push((source_light(node, &light)?, at()));
         }
         if let Some(camera) = node.camera() {
-            self.contents.cameras.push(source_camera(node, &camera, world)?);
+            self.contents.cameras.push((source_camera(node, &camera)?, at()));
         }
-        if let Some(mesh) = node.mesh() {
-            for primitive in mesh.primitives() {
-                let shape = self.primitives.shape(mesh.index(), &primitive)?;
+        let Some(mesh) = node.mesh() else { return Ok(()) };
+        self.nodes.set_weights(place, node.weights().or(mesh.weights()));
+        let name = node.name().or(mesh.name()).unwrap_or_default();
+        let places = instances(self.document, node, &mut self.primitives.accessors, name)?;
+        for primitive in mesh.primitives() {
+            let shape = self.primitives.shape(mesh.index(), &primitive)?;
+            for node_from_part in &places {
                 if self.contents.parts.len() + self.contents.lines.len() == MOST_PARTS {
                     let found = format!("more than {MOST_PARTS} primitives shown");
                     return Err(Fault::element(element(), found, "fewer are"));
                 }
-                let name = node.name().or(mesh.name()).unwrap_or_default().to_owned();
-                let (material, world_from_part) = (primitive.material().index(), world);
-                match shape {
-                    PrimitiveShape::Mesh(mesh) => {
-                        self.contents.parts.push(Part { name, mesh, material, world_from_part });
+                let placed = Placed { node_from_part: *node_from_part, ..at() };
+                let (name, material) = (name.to_owned(), primitive.material().index());
+                match &shape {
+                    PrimitiveShape::Mesh(mesh, shape) => {
+                        let placed = self.dressed(node, placed, shape.as_ref())?;
+                        let part = Part { name, mesh: mesh.clone(), material, world_from_part: Mat4::IDENTITY };
+                        self.contents.parts.push((part, placed));
                     }
                     PrimitiveShape::Lines(lines) => {
-                        self.contents.lines.push(LinePart { name, lines, material, world_from_part });
+                        let lines = LinePart { name, lines: lines.clone(), material, world_from_part: Mat4::IDENTITY };
+                        self.contents.lines.push((lines, placed));
                     }
+                    PrimitiveShape::Nothing => {}
                 }
             }
         }
-        Ok(world_from_node)
+        Ok(())
+    }
+
+    /// The place of a mesh with what moves its vertices.
+    fn dressed(&mut self, node: &Node<'a>, placed: Placed, shape: Option<&Arc<Shape>>) -> Result<Placed, Fault> {
+        let Some(skin) = node.skin() else { return Ok(Placed { shape: shape.cloned(), ..placed }) };
+        let Some(influences) = shape.and_then(|shape| shape.influences.as_ref()) else {
+            self.contents.without_joints += 1;
+            return Ok(Placed { shape: shape.cloned(), ..placed });
+        };
+        let skin_of_file = skin.index();
+        let skin = self.skins.skin(&skin, self.nodes, &mut self.primitives.accessors)?;
+        let (greatest, joints) = (usize::from(influences.greatest_joint()), skin.joints.len());
+        if greatest >= joints {
+            let element = format!("nodes[{}].mesh", node.index());
+            let expected = format!("one of the {joints} joints of skins[{skin_of_file}], from 0, is");
+            return Err(Fault::element(element, format!("joint {greatest}"), expected));
+        }
+        Ok(Placed { shape: shape.cloned(), skin: Some(skin), ..placed })
     }
 }
 
-/// The transform of a node. A matrix whose last row is off by rounding is corrected and counted.
-fn parent_from_node(node: &Node, mended: &mut Option<(usize, String)>) -> Result<DMat4, Fault> {
-    let field = |name: &str| format!("nodes[{}].{name}", node.index());
-    match node.transform() {
-        Transform::Matrix { matrix } => {
-            check_finite(&|| field("matrix"), matrix.as_flattened())?;
-            let mut matrix = Mat4::from_cols_array_2d(&matrix);
-            let last_row = matrix.row(3);
-            if last_row != Vec4::W {
-                let found = format!("last row {:?}", last_row.to_array());
-                if (last_row - Vec4::W).abs().max_element() > ROUNDED {
-                    return Err(Fault::element(field("matrix"), found, "0, 0, 0, 1 is"));
-                }
-                mended.get_or_insert_with(|| (0, format!("{}: {found}", field("matrix")))).0 += 1;
-                for (axis, last) in [0.0, 0.0, 0.0, 1.0].into_iter().enumerate() {
-                    matrix.col_mut(axis).w = last;
-                }
-            }
-            Ok(matrix.as_dmat4())
-        }
-        Transform::Decomposed { translation, rotation, scale } => {
-            check_finite(&|| field("translation"), &translation)?;
-            check_finite(&|| field("rotation"), &rotation)?;
-            check_finite(&|| field("scale"), &scale)?;
-            let quaternion = DQuat::from_array(rotation.map(f64::from));
-            if quaternion.length() == 0.0 {
-                let found = format!("{rotation:?}");
-                return Err(Fault::element(field("rotation"), found, "a unit quaternion is"));
-            }
-            Ok(DMat4::from_scale_rotation_translation(
-                DVec3::from_array(scale.map(f64::from)),
-                quaternion.normalize(),
-                DVec3::from_array(translation.map(f64::from)),
-            ))
-        }
-    }
-}
-
-fn source_light(node: &Node, light: &Light, world_from_light: Mat4) -> Result<SourceLight, Fault> {
+fn source_light(node: &Node, light: &Light) -> Result<SourceLight, Fault> {
     let field = |name: &str| format!("lights[{}].{name}", light.index());
     let kind = match light.kind() {
         Kind::Directional => SourceLightKind::Directional,
@@ -161,11 +154,11 @@ fn source_light(node: &Node, light: &Light, world_from_light: Mat4) -> Result<So
         color: light.color(),
         intensity: light.intensity(),
         range: light.range(),
-        world_from_light,
+        world_from_light: Mat4::IDENTITY,
     })
 }
 
-fn source_camera(node: &Node, camera: &Camera, world_from_camera: Mat4) -> Result<SourceCamera, Fault> {
+fn source_camera(node: &Node, camera: &Camera) -> Result<SourceCamera, Fault> {
     let field = |name: &str| format!("cameras[{}].{name}", camera.index());
     let projection = match camera.projection() {
         Projection::Perspective(found) => {
@@ -194,5 +187,5 @@ fn source_camera(node: &Node, camera: &Camera, world_from_camera: Mat4) -> Resul
         }
     };
     let name = camera.name().or(node.name()).unwrap_or_default().to_owned();
-    Ok(SourceCamera { name, projection, world_from_camera })
+    Ok(SourceCamera { name, projection, world_from_camera: Mat4::IDENTITY })
 }

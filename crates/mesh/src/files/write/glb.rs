@@ -417,6 +417,7 @@ fn metallic_roughness(mtl: &MtlMaterial) -> MetallicRoughness {
         double_sided: false,
         unlit: false,
         alpha: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
+        specular_glossiness: None,
         maps: GltfMaps::default(),
     }
 }

@@ -1,0 +1,74 @@
+//! Extensions of glTF: which are read, and which may be left out.
+
+use gltf::Document;
+use gltf::json::extensions::ENABLED_EXTENSIONS;
+
+use super::fault::Fault;
+
+/// Integers in attributes.
+pub(super) const QUANTIZATION: &str = "KHR_mesh_quantization";
+/// One mesh at many places.
+pub(super) const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+/// Images in WebP.
+pub(super) const WEBP: &str = "EXT_texture_webp";
+/// Images in Basis Universal, which nothing here decodes.
+pub(super) const BASISU: &str = "KHR_texture_basisu";
+/// Triangles that Draco packed.
+pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
+
+/// Those that are read, besides what the `gltf` crate reads.
+const READ: [&str; 3] = [QUANTIZATION, INSTANCING, WEBP];
+
+/// What the names of those begin with that change how a model looks, moves or is described, but not its shape: files that
+/// require them are shown without.
+const LESS: [&str; 16] = [
+    "KHR_materials_",
+    "EXT_materials_",
+    "KHR_texture_",
+    "EXT_texture_",
+    "MSFT_texture_",
+    "MSFT_packing_",
+    "EXT_lights_",
+    "KHR_animation_",
+    "KHR_audio",
+    "KHR_xmp",
+    "KHR_interactivity",
+    "KHR_node_",
+    "EXT_mesh_features",
+    "EXT_instance_features",
+    "EXT_structural_metadata",
+    "CESIUM_primitive_outline",
+];
+
+/// Whether it is read, all of it.
+pub(super) fn is_read(extension: &str) -> bool {
+    extension != BASISU && ENABLED_EXTENSIONS.contains(&extension) && !extension.starts_with("MSFT_")
+        || READ.contains(&extension)
+}
+
+/// Checks that the file can be shown without the extensions that are not read.
+pub(super) fn check_required(required: &[String]) -> Result<(), Fault> {
+    let is_needed = |name: &&String| !is_read(name) && !LESS.iter().any(|beginning| name.starts_with(beginning));
+    match required.iter().find(is_needed) {
+        Some(extension) => Err(Fault::RequiredExtension(extension.clone())),
+        None => Ok(()),
+    }
+}
+
+/// Sentences about those that are not read.
+pub(super) fn warnings(document: &Document) -> impl Iterator<Item = String> {
+    let required = |extension: &str| document.extensions_required().any(|other| other == extension);
+    document.extensions_used().filter(|extension| !is_read(extension)).map(move |extension| {
+        let though = if required(extension) { ", though the file requires it" } else { "" };
+        format!("the extension {extension} is skipped{though}")
+    })
+}
+
+/// The tool that writes a file without an extension, for messages about it.
+pub(super) fn remedy(extension: &str) -> &'static str {
+    match extension {
+        DRACO => "; `gltf-transform copy` writes the file without it",
+        "EXT_meshopt_compression" | "KHR_meshopt_compression" => "; `gltf-transform copy` writes the file without it",
+        _ => "",
+    }
+}
