@@ -27,7 +27,9 @@ fn move_roots(stage: &mut Stage, origin: DVec3) {
     let world = stage.world();
     let mut roots = world.query_filtered::<Entity, (With<Transform>, Without<ChildOf>)>();
     let roots: Vec<Entity> = roots.iter(world).collect();
-    roots.into_iter().for_each(|root| drop(world.entity_mut(root).insert(Origin(origin))));
+    for root in roots {
+        world.entity_mut(root).insert(Origin(origin));
+    }
 }
 
 #[test]
