@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use halfway_mesh::Mesh;
 use halfway_texture::lookup::in_level;
-use halfway_texture::{Channel, Pyramid, TexelFilter, TexelMeaning, Wrap};
+use halfway_texture::{Channel, Pyramid, TexelFilter, TexelImage, TexelMeaning, TextureError, Wrap};
 
 use crate::keys::{Object, keys};
 
@@ -13,7 +13,7 @@ keys! {
     #[derive(Clone, Debug, PartialEq)]
     pub struct DisplacementEntry {
         [required]
-        /// A PNG, JPEG, HDR or EXR file, relative to the scene file. Required.
+        /// An image file, as a PNG, JPEG, WebP or EXR, relative to the scene file. Required.
         path: PathBuf,
         [optional]
         /// How far a 1 moves a vertex, in lengths of the mesh; any number.
@@ -32,10 +32,9 @@ impl Object for DisplacementEntry {
 }
 
 impl DisplacementEntry {
-    /// The image; an error is a sentence.
-    pub(crate) fn load(&self, base_dir: &Path) -> Result<Pyramid, String> {
-        let image = halfway_texture::load(&base_dir.join(&self.path), TexelMeaning::Data);
-        image.map(Pyramid::new).map_err(|error| error.to_string())
+    /// The image.
+    pub(crate) fn load(&self, base_dir: &Path) -> Result<TexelImage, TextureError> {
+        halfway_texture::load(&base_dir.join(&self.path), TexelMeaning::Data)
     }
 
     /// The mesh with its vertices moved; an error is a sentence.

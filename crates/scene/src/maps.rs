@@ -67,7 +67,7 @@ keys! {
     #[derive(Clone, Debug, PartialEq)]
     pub struct MapEntry {
         [required]
-        /// A PNG, JPEG, HDR or EXR file, relative to the scene file. Required.
+        /// An image file, as a PNG, JPEG, WebP or EXR, relative to the scene file. Required.
         path: PathBuf,
         [optional]
         /// The continuation of the image along u.

@@ -12,7 +12,7 @@ use halfway_asset::Handle;
 use halfway_mesh::{
     Animations, Lines, Mesh, Model, NormalReport, Normals, Property, SourceCamera, SourceMap, SourceMaterial,
 };
-use halfway_texture::{FarNormals, MapKind, Pyramid, SurfaceMap, TexelMeaning, Texture, UvSet};
+use halfway_texture::{FarNormals, MapKind, Pyramid, SurfaceMap, TexelImage, TexelMeaning, Texture, UvSet};
 
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
@@ -192,10 +192,13 @@ impl<'a> Shapes<'a> {
 
     /// The image that displaces an object; of one that cannot be read there is a warning.
     fn displacement(&mut self, object: &ObjectEntry, index: usize) -> Option<Pyramid> {
-        let loaded = object.displacement.as_ref()?.load(self.base_dir);
-        let warning =
-            |error| self.warnings.push(format!("objects[{index}].displacement: {error}; nothing is displaced"));
-        loaded.map_err(warning).ok()
+        let mut warn = |what: String| self.warnings.push(format!("objects[{index}].displacement: {what}"));
+        let entry = object.displacement.as_ref()?;
+        let image = entry.load(self.base_dir).map_err(|error| warn(format!("{error}; nothing is displaced"))).ok()?;
+        if let Some(what) = image.reduction() {
+            warn(format!("{} {what}", entry.path.display()));
+        }
+        Some(Pyramid::new(image))
     }
 
     /// The mesh, displaced where it can be.
@@ -321,6 +324,9 @@ impl<'a> Shapes<'a> {
                 return Texture::missing();
             }
             let decoded = halfway_texture::decode(&source.bytes, &source.name, kind.meaning());
+            if let Some(what) = decoded.as_ref().ok().and_then(TexelImage::reduction) {
+                self.warnings.push(format!("{file}: {} {what}", source.name));
+            }
             decoded.map_or_else(
                 |error| {
                     self.warnings.push(format!("{file}: {error}; a checker is shown"));

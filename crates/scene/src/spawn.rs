@@ -14,7 +14,7 @@ use halfway_asset::{Assets, Handle};
 use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, Legend, Material, VertexColors, ViewTolerance};
 use halfway_lighting::{Camera, Origin, Projection, Samples, Show, current_camera, world_place};
 use halfway_mesh::{Bounds, Lines, Lines3d, Mesh, Mesh3d, origin_of_box};
-use halfway_texture::{Maps, SurfaceMap, TexelMeaning, Texture, UvSet};
+use halfway_texture::{Maps, SurfaceMap, TexelImage, TexelMeaning, Texture, UvSet};
 
 use crate::animation::Animated;
 use crate::defaults::{default_lights, framing_camera};
@@ -739,9 +739,12 @@ fn hang_maps(scene: &SceneFile, base_dir: &Path, frames: &[Entity], warnings: &m
         for (kind, entry) in entries.iter() {
             let texture = handles.entry((&entry.path, kind.meaning())).or_insert_with(|| {
                 let loaded = halfway_texture::load(&base_dir.join(&entry.path), kind.meaning());
+                let kind = kind.name();
+                if let Some(what) = loaded.as_ref().ok().and_then(TexelImage::reduction) {
+                    warnings.push(format!("objects[{index}].maps.{kind}: {} {what}", entry.path.display()));
+                }
                 let texture = loaded.map_or_else(
                     |error| {
-                        let kind = kind.name();
                         warnings.push(format!("objects[{index}].maps.{kind}: {error}; a checker is shown"));
                         Texture::missing()
                     },

@@ -255,7 +255,7 @@ surfaces! {
         /// How high a 1 is.
         amount: f32 = 1.0,
         [left out]
-        /// A PNG, JPEG, HDR or EXR file, relative to the scene file, whose first channel has the heights, its top row at
+        /// An image file, as a PNG or EXR, relative to the scene file, whose first channel has the heights, its top row at
         /// the far side; or `heights`. 2 to 2049 rows of 2 to 4097 pixels.
         path: PathBuf,
         /// Rows of heights from −z to +z, each from −x to +x; or `path`.

@@ -8,7 +8,9 @@ use std::path::Path;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, ImageResult, Limits};
 
 use crate::error::TextureError;
-use crate::texels::{TexelImage, check_size};
+use crate::limits::MOST_DECODED;
+use crate::reduced::{reduced, reduced_size};
+use crate::texels::{TexelImage, check_finite};
 
 /// The meaning of an image's values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -23,7 +25,7 @@ pub enum TexelMeaning {
 /// The longest file that is read, in bytes.
 const LONGEST_FILE: u64 = 1 << 28;
 
-/// Reads a PNG, JPEG, Radiance HDR or EXR file.
+/// Reads an image file in one of the formats of [`decode`].
 ///
 /// ```
 /// use std::path::Path;
@@ -50,12 +52,18 @@ pub fn load(path: &Path, meaning: TexelMeaning) -> Result<TexelImage, TextureErr
     decode(&bytes, &image(), meaning)
 }
 
-/// Decodes the bytes of a PNG, JPEG, Radiance HDR or EXR file, told apart by their first bytes. Error messages call the
-/// image `name`.
+/// Decodes the bytes of an image file: PNG, JPEG, WebP, BMP, TIFF, GIF, Radiance HDR or EXR, told apart by their first
+/// bytes, or TGA, told by the mark at its end or by the end of `name`. Error messages call the image `name`. Of an
+/// animation the first frame is read.
 ///
-/// Grey becomes equal red, green and blue; without an alpha channel alpha is 1; palettes and CMYK JPEG are converted to
-/// RGB. Values of 8 and 16 bits are divided by 255 and 65535; those of HDR and EXR are floats, linear already, and are
-/// used as they are, whatever the `meaning`.
+/// Grey becomes equal red, green and blue; without an alpha channel alpha is 1; palettes and CMYK are converted to
+/// RGB. Values of 8 and 16 bits are divided by 255 and 65535; floats, which HDR, EXR and some TIFF files hold, are linear
+/// already and are used as they are, whatever the `meaning`.
+///
+/// An image above [`LONGEST_SIDE`] or [`MOST_TEXELS`] is scaled down to them: [`TexelImage::reduction`] says so.
+///
+/// [`LONGEST_SIDE`]: crate::LONGEST_SIDE
+/// [`MOST_TEXELS`]: crate::MOST_TEXELS
 ///
 /// ```
 /// use halfway_texture::{TexelMeaning, decode};
@@ -65,8 +73,8 @@ pub fn load(path: &Path, meaning: TexelMeaning) -> Result<TexelImage, TextureErr
 /// ```
 ///
 /// # Errors
-/// Bytes in none of these formats, NaN or an infinite number in a texel, an image that is broken, empty or too large,
-/// or an allocation that fails. The size is checked before memory is allocated.
+/// Bytes in none of these formats, NaN or an infinite number in a texel, an image that is broken, empty or of more than
+/// 1 GiB when decoded, or an allocation that fails. The size is checked before memory is allocated.
 pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelImage, TextureError> {
     let mut file = Cursor::new(bytes);
     if guessed(&mut file, name)? == Some(ImageFormat::Jpeg) && !has_end_of_jpeg(bytes) {
@@ -74,19 +82,39 @@ pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelIm
         return Err(broken(name, "the file ends before the picture does"));
     }
     let decoder = opened(file, name, Limits::default())?;
-    let (width, height) = decoder.dimensions();
-    check_size(name, width, height)?;
+    let size = decoder.dimensions();
+    check_decoded(name, size, decoder.total_bytes())?;
     let mut limits = Limits::default();
     limits.max_alloc = Some(decoder.total_bytes().saturating_mul(2).saturating_add(1 << 24));
     let image = finished(decoder, name, limits)?;
+    match reduced_size(size) {
+        Some(smaller) => reduced(&image, smaller, |strip, first| texels(strip, first, name, meaning)),
+        None => Ok(TexelImage::checked(size.0, size.1, texels(&image, 0, name, meaning)?)),
+    }
+}
+
+/// Checks the size that a file states.
+fn check_decoded(name: &str, (width, height): (u32, u32), bytes: u64) -> Result<(), TextureError> {
+    let image = || name.to_owned();
+    if width == 0 || height == 0 {
+        return Err(TextureError::Empty { image: image(), width, height });
+    }
+    if bytes > MOST_DECODED {
+        return Err(TextureError::TooLargeDecoded { image: image(), width, height, bytes });
+    }
+    Ok(())
+}
+
+/// The values of an image, or of some rows of it from the `first` on, in linear light.
+fn texels(image: &DynamicImage, first: u32, name: &str, meaning: TexelMeaning) -> Result<Vec<[f32; 4]>, TextureError> {
+    let count = image.width() as usize * image.height() as usize;
     let mut texels = Vec::new();
-    let count = width as usize * height as usize;
     let refused = |_| TextureError::Memory { image: name.into(), bytes: 16 * count as u64 };
     texels.try_reserve_exact(count).map_err(refused)?;
     if matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)) {
-        let floats = image.into_rgba32f();
-        texels.extend(floats.pixels().map(|pixel| pixel.0));
-        return TexelImage::new(width, height, texels).map_err(|error| error.named(name));
+        texels.extend(image.to_rgba32f().pixels().map(|pixel| pixel.0));
+        check_finite(&texels, image.width()).map_err(|error| error.named(name, first))?;
+        return Ok(texels);
     }
     let color = meaning == TexelMeaning::Color;
     if image.color().bytes_per_pixel() / image.color().channel_count() > 1 {
@@ -105,7 +133,7 @@ pub fn decode(bytes: &[u8], name: &str, meaning: TexelMeaning) -> Result<TexelIm
             [curved(r), curved(g), curved(b), linear[usize::from(a)]]
         }));
     }
-    Ok(TexelImage::checked(width, height, texels))
+    Ok(texels)
 }
 
 /// The values of a file as they are stored: for pictures to compare, not for surfaces. Error messages call the file
@@ -124,10 +152,20 @@ fn broken(name: &str, reason: impl ToString) -> TextureError {
     TextureError::Decode { image: name.into(), reason: reason.to_string() }
 }
 
-/// The format by the first bytes; the file is rewound.
+/// The format by the first bytes, or for TGA, which has no mark there, by the last ones or the name; the file is rewound.
 fn guessed(mut file: impl BufRead + Seek, name: &str) -> Result<Option<ImageFormat>, TextureError> {
     let format = ImageReader::new(&mut file).with_guessed_format().map(|reader| reader.format());
+    let format = format.map(|format| format.or_else(|| is_tga(&mut file, name).then_some(ImageFormat::Tga)));
     format.and_then(|format| file.rewind().map(|()| format)).map_err(|error| broken(name, error))
+}
+
+/// Whether a file is a TGA by its footer (Truevision TGA 2.0), which older files lack, or by its name.
+fn is_tga(mut file: impl BufRead + Seek, name: &str) -> bool {
+    const FOOTER: &[u8; 18] = b"TRUEVISION-XFILE.\0";
+    let mut last = [0; FOOTER.len()];
+    let has_footer = file.seek(SeekFrom::End(-(FOOTER.len() as i64))).is_ok() && file.read_exact(&mut last).is_ok();
+    let is_named = Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tga"));
+    has_footer && last == *FOOTER || is_named
 }
 
 /// The decoder of a file, which has read the image's header.
@@ -136,12 +174,18 @@ fn opened<'a>(
     name: &str,
     limits: Limits,
 ) -> Result<impl ImageDecoder + 'a, TextureError> {
-    if guessed(&mut file, name)? == Some(ImageFormat::Png) && !has_whole_palette(&mut file) {
+    let format = guessed(&mut file, name)?;
+    if format == Some(ImageFormat::Png) && !has_whole_palette(&mut file) {
         // The decoder would panic.
         return Err(broken(name, "its palette ends within a color"));
     }
     guarded(name, || {
-        let mut reader = ImageReader::new(file).with_guessed_format()?;
+        let mut reader = ImageReader::new(file);
+        match format {
+            Some(format) => reader.set_format(format),
+            // For the error that it has then.
+            None => reader = reader.with_guessed_format()?,
+        }
         reader.limits(limits);
         reader.into_decoder()
     })

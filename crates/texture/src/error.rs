@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::limits::{LONGEST_SIDE, MOST_TEXELS};
+use crate::limits::{LONGEST_SIDE, MOST_DECODED, MOST_TEXELS};
 
 /// Why an image was refused. `image` in the messages is the name that the caller gave, such as a path.
 ///
@@ -69,6 +69,21 @@ pub enum TextureError {
         /// Rows.
         height: u32,
     },
+    /// The image in a file is too large to be decoded.
+    #[error(
+        "{image}: is {width} × {height} texels, {bytes} bytes when decoded; at most {} bytes are expected",
+        MOST_DECODED
+    )]
+    TooLargeDecoded {
+        /// The file.
+        image: String,
+        /// Texels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// The bytes of its values.
+        bytes: u64,
+    },
     /// The allocation failed.
     #[error("{image}: {bytes} bytes of memory are refused")]
     Memory {
@@ -110,10 +125,10 @@ pub enum TextureError {
 }
 
 impl TextureError {
-    /// The error with the name of an image, in variants that name a texel.
-    pub(crate) fn named(self, name: &str) -> Self {
+    /// The error with the name of an image, in variants that name a texel; its rows are counted from `first`.
+    pub(crate) fn named(self, name: &str, first: u32) -> Self {
         match self {
-            Self::NotFinite { x, y, value, .. } => Self::NotFinite { image: name.into(), x, y, value },
+            Self::NotFinite { x, y, value, .. } => Self::NotFinite { image: name.into(), x, y: first + y, value },
             other => other,
         }
     }

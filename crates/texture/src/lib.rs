@@ -13,6 +13,7 @@ mod moments;
 pub mod noise;
 pub mod normals;
 mod pyramid;
+mod reduced;
 mod ripmap;
 mod sampling;
 pub mod solid;

@@ -17,6 +17,8 @@ pub struct TexelImage {
     width: u32,
     height: u32,
     texels: Vec<[f32; 4]>,
+    /// The size in its file, if it was larger.
+    reduced_from: Option<[u32; 2]>,
 }
 
 impl TexelImage {
@@ -30,11 +32,8 @@ impl TexelImage {
         if texels.len() as u64 != u64::from(width) * u64::from(height) {
             return Err(TextureError::Count { width, height, found: texels.len() });
         }
-        let wrong = |texel: &[f32; 4]| texel.iter().copied().find(|number| !number.is_finite());
-        if let Some((at, value)) = texels.iter().enumerate().find_map(|(at, texel)| Some((at as u32, wrong(texel)?))) {
-            return Err(TextureError::NotFinite { image: IN_CODE.into(), x: at % width, y: at / width, value });
-        }
-        Ok(Self { width, height, texels })
+        check_finite(&texels, width)?;
+        Ok(Self::checked(width, height, texels))
     }
 
     /// An image whose texel in column `x` of row `y` is `texel(x, y)`.
@@ -52,7 +51,21 @@ impl TexelImage {
 
     /// From texels that are known to be valid.
     pub(crate) fn checked(width: u32, height: u32, texels: Vec<[f32; 4]>) -> Self {
-        Self { width, height, texels }
+        Self { width, height, texels, reduced_from: None }
+    }
+
+    /// With the size that it had in its file.
+    pub(crate) fn reduced_from(self, width: u32, height: u32) -> Self {
+        Self { reduced_from: Some([width, height]), ..self }
+    }
+
+    /// A sentence without its subject where the image in the file was larger than the limits: it was scaled down.
+    pub fn reduction(&self) -> Option<String> {
+        let Self { width, height, .. } = self;
+        let [from_width, from_height] = self.reduced_from?;
+        Some(format!(
+            "is scaled down from {from_width} × {from_height} to {width} × {height} texels, to keep within the limits"
+        ))
     }
 
     /// Columns and rows.
@@ -80,6 +93,17 @@ impl TexelImage {
 
 /// The name of images without a file in errors.
 const IN_CODE: &str = "the image";
+
+/// Refuses the first texel, in rows of this width, that is not finite.
+pub(crate) fn check_finite(texels: &[[f32; 4]], width: u32) -> Result<(), TextureError> {
+    let wrong = |texel: &[f32; 4]| texel.iter().copied().find(|number| !number.is_finite());
+    match texels.iter().enumerate().find_map(|(at, texel)| Some((at as u32, wrong(texel)?))) {
+        Some((at, value)) => {
+            Err(TextureError::NotFinite { image: IN_CODE.into(), x: at % width, y: at / width, value })
+        }
+        None => Ok(()),
+    }
+}
 
 pub(crate) fn check_size(image: &str, width: u32, height: u32) -> Result<(), TextureError> {
     let image = || image.to_owned();

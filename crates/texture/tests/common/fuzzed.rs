@@ -11,7 +11,9 @@ pub(crate) fn feed(bytes: &[u8]) {
     match (color, data) {
         (Ok(color), Ok(data)) => {
             assert_eq!(color.size(), data.size());
-            let is_float = bytes.starts_with(b"\x76\x2F\x31\x01") || bytes.starts_with(b"#?");
+            // EXR, HDR, and TIFF, which may hold either.
+            let marks: [&[u8]; 4] = [b"\x76\x2F\x31\x01", b"#?", b"II*\0", b"MM\0*"];
+            let is_float = marks.iter().any(|mark| bytes.starts_with(mark));
             for image in [color, data] {
                 check(&image, is_float);
             }

@@ -52,7 +52,12 @@ fn invalid_images_are_refused_by_name() {
     let checksum = crc(&bomb[12..29]).to_be_bytes();
     bomb[29..33].copy_from_slice(&checksum);
     let error = decode(&bomb, "bomb.png", TexelMeaning::Color).expect_err("too large");
-    assert_eq!(error, TextureError::TooLarge { image: "bomb.png".into(), width: 60_000, height: 60_000 });
+    let bytes = 60_000 * 60_000 * 3;
+    assert_eq!(error, TextureError::TooLargeDecoded { image: "bomb.png".into(), width: 60_000, height: 60_000, bytes });
+    assert_eq!(
+        error.to_string(),
+        "bomb.png: is 60000 × 60000 texels, 10800000000 bytes when decoded; at most 1073741824 bytes are expected"
+    );
     assert!(matches!(TexelImage::new(0, 3, Vec::new()), Err(TextureError::Empty { .. })));
     assert!(matches!(TexelImage::new(LONGEST_SIDE + 1, 1, Vec::new()), Err(TextureError::TooLarge { .. })));
     assert!(matches!(TexelImage::new(2, 1, vec![[0.0; 4]]), Err(TextureError::Count { found: 1, .. })));
@@ -182,19 +187,30 @@ fn cmyk_jpegs_are_converted_to_rgb() {
 }
 
 #[test]
-fn images_have_so_many_texels_at_most() {
-    let rows = (MOST_TEXELS / u64::from(LONGEST_SIDE)) as u32;
-    let of_rows = |rows| {
-        let file = png_of(&[(b"IHDR", &header(LONGEST_SIDE, rows, 2)), (b"IDAT", &stored(&[0])), (b"IEND", &[])]);
-        decode(&file, "large.png", TexelMeaning::Color).expect_err("its texels are missing")
-    };
-    // Neither side is too long.
-    assert!(rows < LONGEST_SIDE);
-    assert_eq!(
-        of_rows(rows + 1),
-        TextureError::TooLarge { image: "large.png".into(), width: LONGEST_SIDE, height: rows + 1 }
-    );
-    assert!(matches!(of_rows(rows), TextureError::Decode { .. }), "{}", of_rows(rows));
+fn images_beyond_the_limits_are_scaled_down() {
+    // Columns by turns black and white, and one more.
+    let file = png(image::GrayImage::from_fn(2 * LONGEST_SIDE, 2, |x, _| Luma([if x % 2 == 0 { 0 } else { 255 }])));
+    let image = decode(&file, "long.png", TexelMeaning::Data).expect("a long image");
+    assert_eq!(image.size(), [LONGEST_SIDE, 1]);
+    assert!(image.texels().iter().all(|texel| *texel == [0.5, 0.5, 0.5, 1.0]), "{:?}", image.texels()[0]);
+    let said = image.reduction().expect("it was longer");
+    assert_eq!(said, "is scaled down from 16384 × 2 to 8192 × 1 texels, to keep within the limits");
+    let within = png(image::GrayImage::new(LONGEST_SIDE, 1));
+    assert_eq!(decode(&within, "within.png", TexelMeaning::Data).expect("an image").reduction(), None);
+    assert!(u64::from(LONGEST_SIDE) * u64::from(LONGEST_SIDE) > MOST_TEXELS);
+}
+
+/// The place of a wrong number is that in the file.
+#[test]
+fn nan_in_a_large_image_is_refused_by_its_texel() {
+    let mut floats = image::Rgb32FImage::new(LONGEST_SIDE + 1, 300);
+    floats.put_pixel(7, 299, Rgb([0.0, f32::NAN, 0.0]));
+    let mut bytes = Cursor::new(Vec::new());
+    DynamicImage::from(floats).write_to(&mut bytes, ImageFormat::OpenExr).expect("room");
+    match decode(&bytes.into_inner(), "large.exr", TexelMeaning::Data) {
+        Err(TextureError::NotFinite { image, x: 7, y: 299, .. }) => assert_eq!(image, "large.exr"),
+        other => panic!("{:?}", other.map(|image| image.size())),
+    }
 }
 
 /// A small image in a format.
@@ -227,6 +243,25 @@ fn resized(format: ImageFormat, [width, height]: [u32; 2]) -> Vec<u8> {
             file[at..at + 2].copy_from_slice(&(height as u16).to_be_bytes());
             file[at + 2..at + 4].copy_from_slice(&(width as u16).to_be_bytes());
         }
+        ImageFormat::Bmp => {
+            file[18..22].copy_from_slice(&width.to_le_bytes());
+            file[22..26].copy_from_slice(&height.to_le_bytes());
+        }
+        ImageFormat::Tga => {
+            file[12..14].copy_from_slice(&(width as u16).to_le_bytes());
+            file[14..16].copy_from_slice(&(height as u16).to_le_bytes());
+        }
+        ImageFormat::Gif => {
+            file[6..8].copy_from_slice(&(width as u16).to_le_bytes());
+            file[8..10].copy_from_slice(&(height as u16).to_le_bytes());
+        }
+        ImageFormat::Tiff => {
+            for (tag, size) in [(0x100_u16, width), (0x101, height)] {
+                // A tag, its type and count, and its value.
+                let at = after(&file, &[&tag.to_le_bytes()[..], &[4, 0, 1, 0, 0, 0]].concat());
+                file[at..at + 4].copy_from_slice(&size.to_le_bytes());
+            }
+        }
         ImageFormat::Hdr => {
             let at = after(&file, b"\n\n");
             let end = at + after(&file[at..], b"\n");
@@ -245,12 +280,68 @@ fn resized(format: ImageFormat, [width, height]: [u32; 2]) -> Vec<u8> {
     file
 }
 
-const FORMATS: [ImageFormat; 4] = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr, ImageFormat::OpenExr];
+const FORMATS: [ImageFormat; 9] = [
+    ImageFormat::Png,
+    ImageFormat::Jpeg,
+    ImageFormat::WebP,
+    ImageFormat::Bmp,
+    ImageFormat::Tga,
+    ImageFormat::Tiff,
+    ImageFormat::Gif,
+    ImageFormat::Hdr,
+    ImageFormat::OpenExr,
+];
+
+/// A file's name, which tells TGA files of the old kind.
+fn name_in(format: ImageFormat) -> String {
+    format!("image.{}", format.extensions_str()[0])
+}
+
+#[test]
+fn every_format_gives_the_same_picture() {
+    let expected = decode(&file_in(ImageFormat::Png), "image.png", TexelMeaning::Data).expect("a PNG");
+    // JPEG and GIF, of 256 colors, lose more: tests of their own read them.
+    let lossy = [ImageFormat::Jpeg, ImageFormat::Gif];
+    for format in FORMATS.into_iter().filter(|format| !lossy.contains(format)) {
+        let found = decode(&file_in(format), &name_in(format), TexelMeaning::Data).expect("an image");
+        assert_eq!(found.size(), [40, 40], "{format:?}");
+        // A texel of an HDR has one exponent for three channels.
+        let slack = if format == ImageFormat::Hdr { 0.01 } else { 1e-6 };
+        let pairs = found.texels().as_flattened().iter().zip(expected.texels().as_flattened());
+        let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(off <= slack, "{format:?}: {off}");
+    }
+}
+
+/// TGA files have no mark at their beginning: newer ones have one at their end.
+#[test]
+fn tga_is_told_by_its_end_or_by_its_name() {
+    let old = file_in(ImageFormat::Tga);
+    let size = |bytes: &[u8], name: &str| decode(bytes, name, TexelMeaning::Color).map(|image| image.size());
+    assert_eq!(size(&old, "Bricks.TGA"), Ok([40, 40]));
+    assert!(matches!(size(&old, "bricks"), Err(TextureError::Decode { .. })));
+    let new = [&old[..], &[0; 8], b"TRUEVISION-XFILE.\0"].concat();
+    assert_eq!(size(&new, "bricks"), Ok([40, 40]));
+}
+
+/// Of an animation the first frame is read.
+#[test]
+fn a_gif_is_its_first_frame() {
+    let mut bytes = Vec::new();
+    {
+        let mut encoder = image::codecs::gif::GifEncoder::new(&mut bytes);
+        let frame = |red| image::Frame::new(image::RgbaImage::from_pixel(4, 4, Rgba([red, 0, 0, 255])));
+        encoder.encode_frames([frame(255), frame(0)]).expect("room");
+    }
+    let image = decode(&bytes, "moving.gif", TexelMeaning::Color).expect("a GIF");
+    assert_eq!((image.size(), image.texels()[5]), ([4, 4], [1.0, 0.0, 0.0, 1.0]));
+}
 
 #[test]
 fn impossible_sizes_are_refused_in_every_format() {
-    for format in FORMATS {
-        let name = format!("{format:?}");
+    // The size of a WebP is spread over the bits of its stream.
+    for format in FORMATS.into_iter().filter(|format| *format != ImageFormat::WebP) {
+        let name = name_in(format);
         let found = decode(&resized(format, [40, 40]), &name, TexelMeaning::Color).expect("the size that it has");
         assert_eq!(found.size(), [40, 40], "{name}");
         let refused = |size| {
@@ -258,10 +349,11 @@ fn impossible_sizes_are_refused_in_every_format() {
             found.map(|image| image.size()).expect_err("no such size")
         };
         let error = refused([60_000, 60_000]);
-        // The number of parts of an EXR file has to match its size: that is checked first.
-        let is_miscounted = format == ImageFormat::OpenExr && matches!(error, TextureError::Decode { .. });
-        let too_large = TextureError::TooLarge { image: name.clone(), width: 60_000, height: 60_000 };
-        assert!(is_miscounted || error == too_large, "{error}");
+        // The number of parts of an EXR or a TIFF file has to match its size: that is checked first.
+        let has_parts = matches!(format, ImageFormat::OpenExr | ImageFormat::Tiff);
+        let is_miscounted = has_parts && matches!(error, TextureError::Decode { .. });
+        let is_too_large = matches!(error, TextureError::TooLargeDecoded { width: 60_000, height: 60_000, .. });
+        assert!(is_miscounted || is_too_large, "{error}");
         for size in [[0, 40], [40, 0]] {
             let error = refused(size);
             assert!(matches!(error, TextureError::Empty { .. } | TextureError::Decode { .. }), "{name}: {error}");
@@ -273,7 +365,7 @@ fn impossible_sizes_are_refused_in_every_format() {
 #[test]
 fn truncated_files_are_refused_in_every_format() {
     for format in FORMATS {
-        let (name, file) = (format!("{format:?}"), file_in(format));
+        let (name, file) = (name_in(format), file_in(format));
         for length in [4, 20, file.len() / 3, file.len() / 2, file.len() * 9 / 10] {
             let found = decode(&file[..length], &name, TexelMeaning::Color);
             let error = found.map(|image| image.size()).expect_err("a part of it");

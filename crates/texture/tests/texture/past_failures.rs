@@ -34,5 +34,8 @@ fn the_seeds_are_images() {
         load(&file, TexelMeaning::Color).unwrap();
         endings.insert(ending.to_owned());
     }
-    assert_eq!(endings.into_iter().collect::<Vec<_>>(), ["exr", "hdr", "jpg", "png"]);
+    assert_eq!(
+        endings.into_iter().collect::<Vec<_>>(),
+        ["bmp", "exr", "gif", "hdr", "jpg", "png", "tga", "tiff", "webp"]
+    );
 }
