@@ -123,6 +123,24 @@ impl DistinctKeys {
         number
     }
 
+    /// Adds a key that is known to be new and [`number`](Self::number) is not asked for before it is
+    /// [remembered](Self::remember).
+    pub(crate) fn add(&mut self, key: [u32; 3]) -> u32 {
+        self.keys.push(key);
+        self.keys.len() as u32 - 1
+    }
+
+    /// Lets [`number`](Self::number) find a key again.
+    pub(crate) fn remember(&mut self, number: u32) {
+        let Self { keys, table } = self;
+        table.number(number, keys[number as usize], |number| keys[number as usize]);
+    }
+
+    /// The keys, by their numbers.
+    pub(crate) fn keys(&self) -> &[[u32; 3]] {
+        &self.keys
+    }
+
     /// The key of each number.
     pub(crate) fn into_keys(self) -> Vec<[u32; 3]> {
         self.keys
@@ -188,7 +206,11 @@ mod tests {
             assert_eq!(distinct.number(key(i)), i);
             assert_eq!(distinct.number(key(i / 2)), i / 2);
         }
-        assert_eq!(distinct.into_keys().len(), 5000);
+        let added = distinct.add(key(5000));
+        distinct.remember(added);
+        distinct.remember(added);
+        assert_eq!((added, distinct.number(key(5000))), (5000, 5000));
+        assert_eq!(distinct.into_keys().len(), 5001);
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
+use crate::origin_of_box;
+
 /// How many corners are tested for each corner of a polygon before the rest is cut without tests. Only polygons of ten
 /// thousand corners and more, or malicious ones, come near.
 const PATIENCE: usize = 1 << 14;
@@ -28,6 +30,15 @@ pub(super) fn cut(points: &[Vec3], mut triangle: impl FnMut([u32; 3])) -> bool {
         return true;
     }
     Ears::new(&flat).cut(triangle)
+}
+
+/// The corners of a polygon as [`cut`] takes them: from an origin of their own, where they are far away.
+pub(super) fn near(corners: impl Iterator<Item = DVec3> + Clone, near: &mut Vec<Vec3>) {
+    let min = corners.clone().fold(DVec3::INFINITY, DVec3::min);
+    let max = corners.clone().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let origin = origin_of_box(min, max);
+    near.clear();
+    near.extend(corners.map(|p| (p - origin).as_vec3()));
 }
 
 /// The polygon projected along its normal (Newell's, Sutherland et al. 1974), so that it winds counter-clockwise.

@@ -100,6 +100,9 @@ pub(super) struct Reader<'a> {
     done: u64,
     of: u64,
     reported: u64,
+    /// Whether the first line ends in CR alone. Then an LF does not belong to a CR before it: it may be the first byte
+    /// after a header.
+    cr_alone: Option<bool>,
 }
 
 impl<'a> Reader<'a> {
@@ -128,7 +131,13 @@ impl<'a> Reader<'a> {
         if of == 0 {
             return Err(LoadError::Empty { path: path.to_owned() });
         }
-        Ok(Self { path, from: Box::new(from), on_progress, done: 0, of, reported: 0 })
+        Ok(Self { path, from: Box::new(from), on_progress, done: 0, of, reported: 0, cr_alone: None })
+    }
+
+    /// A reader of bytes that another reader has given.
+    pub(super) fn of_chunk(path: &'a Path, bytes: &'a [u8]) -> Self {
+        let of = bytes.len() as u64;
+        Self { path, from: Box::new(bytes), on_progress: None, done: 0, of, reported: 0, cr_alone: None }
     }
 
     pub(super) fn path(&self) -> &'a Path {
@@ -140,11 +149,57 @@ impl<'a> Reader<'a> {
         self.of
     }
 
-    /// Appends a line with its end; returns whether there was one.
+    /// Appends a line with its end, which is LF, CRLF or CR; returns whether there was one.
     pub(super) fn line(&mut self, buffer: &mut Vec<u8>) -> Result<bool, LoadError> {
-        let count = self.from.read_until(b'\n', buffer).map_err(|source| self.failed(source))?;
+        let before = buffer.len();
+        loop {
+            let path = self.path;
+            let failed = |source| LoadError::Read { path: path.to_owned(), source };
+            let ahead = self.from.fill_buf().map_err(failed)?;
+            let end = memchr::memchr2(b'\n', b'\r', ahead);
+            let taken = end.map_or(ahead.len(), |end| end + 1);
+            let is_cr = end.is_some_and(|end| ahead[end] == b'\r');
+            buffer.extend_from_slice(&ahead[..taken]);
+            self.from.consume(taken);
+            if is_cr && self.cr_alone != Some(true) && self.from.fill_buf().map_err(failed)?.first() == Some(&b'\n') {
+                buffer.push(b'\n');
+                self.from.consume(1);
+            }
+            if end.is_some() || taken == 0 {
+                self.cr_alone.get_or_insert(buffer.ends_with(b"\r"));
+                break;
+            }
+        }
+        let count = buffer.len() - before;
         self.advance(count)?;
         Ok(count > 0)
+    }
+
+    /// Appends so many bytes, or as many as there are, and then the rest of a line that no backslash continues. Returns
+    /// whether there were any.
+    pub(super) fn lines(&mut self, count: usize, buffer: &mut Vec<u8>) -> Result<bool, LoadError> {
+        let taken = self.append(count, buffer)?;
+        if taken == count {
+            while self.line(buffer)? && continued_at(buffer).is_some() {}
+        }
+        Ok(taken > 0)
+    }
+
+    /// Appends so many bytes, or as many as there are; returns how many.
+    pub(super) fn append(&mut self, count: usize, buffer: &mut Vec<u8>) -> Result<usize, LoadError> {
+        let mut taken = 0;
+        while taken < count {
+            let step = ((count - taken) as u64).min(REPORT);
+            buffer.reserve(step.min(self.of.saturating_sub(self.done)) as usize);
+            match self.from.by_ref().take(step).read_to_end(buffer).map_err(|source| self.failed(source))? {
+                0 => break,
+                read => {
+                    self.advance(read)?;
+                    taken += read;
+                }
+            }
+        }
+        Ok(taken)
     }
 
     /// The next bytes, as many as the buffer takes and as there are, without consuming them. At most [`CHUNK`] at once.
@@ -181,12 +236,8 @@ impl<'a> Reader<'a> {
         let mut whole = Vec::new();
         // The length is the system's claim, not the file's; it may still be wrong.
         let _ = whole.try_reserve_exact(usize::try_from(self.of).unwrap_or(0));
-        loop {
-            match self.from.by_ref().take(REPORT).read_to_end(&mut whole).map_err(|source| self.failed(source))? {
-                0 => return Ok(whole),
-                count => self.advance(count)?,
-            }
-        }
+        self.append(usize::MAX, &mut whole)?;
+        Ok(whole)
     }
 
     fn failed(&self, source: std::io::Error) -> LoadError {
@@ -205,6 +256,13 @@ impl<'a> Reader<'a> {
             ControlFlow::Break(()) => Err(LoadError::Stopped { path: self.path.to_owned() }),
         }
     }
+}
+
+/// The position of the backslash that ends a line.
+pub(super) fn continued_at(line: &[u8]) -> Option<usize> {
+    let line = line.strip_suffix(b"\n").unwrap_or(line);
+    let line = line.strip_suffix(b"\r").unwrap_or(line);
+    line.strip_suffix(b"\\").map(<[u8]>::len)
 }
 
 /// The folder of the files that a model refers to.
@@ -280,6 +338,45 @@ fn stays_inside(reference: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn lines_of(bytes: &[u8]) -> Vec<String> {
+        // A buffer of one byte, so that every line end is split.
+        let from = BufReader::with_capacity(1, bytes);
+        let mut reader = Reader::new(Path::new("text"), from, bytes.len() as u64, None).unwrap();
+        let mut line = Vec::new();
+        let mut lines = Vec::new();
+        while reader.line(&mut line).unwrap() {
+            lines.push(String::from_utf8(std::mem::take(&mut line)).unwrap());
+        }
+        lines
+    }
+
+    #[test]
+    fn lines_end_in_any_of_three_ways() {
+        assert_eq!(lines_of(b"a\nb\n\nc"), ["a\n", "b\n", "\n", "c"]);
+        assert_eq!(lines_of(b"a\r\nb\r\n"), ["a\r\n", "b\r\n"]);
+        assert_eq!(lines_of(b"a\rb\r\rc"), ["a\r", "b\r", "\r", "c"]);
+        assert_eq!(lines_of(b"a\nb\rc\r\n"), ["a\n", "b\r", "c\r\n"]);
+        // What follows a header of such lines may begin with the byte of an LF.
+        assert_eq!(lines_of(b"ply\rend\r\n"), ["ply\r", "end\r", "\n"]);
+    }
+
+    #[test]
+    fn chunks_end_with_a_line_that_is_not_continued() {
+        let bytes = b"one\ntwo \\\nthree\nfour";
+        let chunks = |count| {
+            let mut reader = Reader::of_chunk(Path::new("text"), bytes);
+            let mut chunk = Vec::new();
+            let mut lengths = Vec::new();
+            while reader.lines(count, &mut chunk).unwrap() {
+                lengths.push(std::mem::take(&mut chunk).len());
+            }
+            lengths
+        };
+        assert_eq!(chunks(1), [4, 12, 4]);
+        assert_eq!(chunks(5), [16, 4]);
+        assert_eq!(chunks(100), [20]);
+    }
 
     #[test]
     fn references_stay_inside() {

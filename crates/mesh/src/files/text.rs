@@ -7,11 +7,11 @@ use std::str::FromStr;
 use glam::Vec2;
 
 use super::LoadError;
-use super::source::Reader;
+use super::source::{Reader, continued_at};
 
 /// The statements of a text, one at a time: lines that are neither empty nor comments.
 ///
-/// Lines end with LF or CRLF; `#` at the beginning makes a comment, which may hold any bytes; other lines are UTF-8, or
+/// Lines end with LF, CRLF or CR; `#` at the beginning makes a comment, which may hold any bytes; other lines are UTF-8, or
 /// else Latin-1, as older programs write names. A byte order mark at the beginning is skipped. No more than a line is
 /// in memory.
 pub(super) struct Statements<'a> {
@@ -28,10 +28,15 @@ pub(super) struct Statements<'a> {
 }
 
 impl<'a> Statements<'a> {
-    /// If lines are `continued`, a backslash at the end of a line that is not a comment joins it with the next.
+    /// If lines are `continued`, a backslash at the end of a line joins it with the next, unless it ends a comment.
     pub(super) fn new(reader: Reader<'a>, continued: bool) -> Self {
         let (buffer, latin1) = (Vec::new(), String::new());
         Self { reader, buffer, latin1, latin1_lines: None, line: 0, read: 0, continued }
+    }
+
+    /// Counts lines on from those before the reader's.
+    pub(super) fn after(self, lines: usize) -> Self {
+        Self { read: lines, ..self }
     }
 
     pub(super) fn path(&self) -> &'a Path {
@@ -87,25 +92,24 @@ impl<'a> Statements<'a> {
         if self.line == 1 && self.buffer.starts_with(b"\xEF\xBB\xBF") {
             self.buffer.drain(..3);
         }
-        if self.continued && self.buffer.trim_ascii_start().first() != Some(&b'#') {
-            while let Some(end) = continued_at(&self.buffer) {
-                self.buffer.truncate(end);
-                self.buffer.push(b' ');
-                if !self.reader.line(&mut self.buffer)? {
-                    break;
-                }
-                self.read += 1;
+        let mut last = 0;
+        while self.continued && !has_comment(&self.buffer[last..]) {
+            let Some(end) = continued_at(&self.buffer) else { break };
+            self.buffer.truncate(end);
+            self.buffer.push(b' ');
+            last = self.buffer.len();
+            if !self.reader.line(&mut self.buffer)? {
+                break;
             }
+            self.read += 1;
         }
         Ok(true)
     }
 }
 
-/// The position of the backslash that ends a line.
-fn continued_at(line: &[u8]) -> Option<usize> {
-    let line = line.strip_suffix(b"\n").unwrap_or(line);
-    let line = line.strip_suffix(b"\r").unwrap_or(line);
-    line.strip_suffix(b"\\").map(<[u8]>::len)
+/// Whether a word of the line begins with `#`.
+fn has_comment(line: &[u8]) -> bool {
+    memchr::memchr_iter(b'#', line).any(|at| at == 0 || line[at - 1].is_ascii_whitespace())
 }
 
 /// A statement: a keyword and its words.
@@ -145,20 +149,37 @@ impl<'a> Statement<'a> {
         counts: &[usize],
         expected: &str,
     ) -> Result<([f32; N], usize), LoadError> {
+        let (words, count): ([&str; N], usize) = self.up_to(counts, expected)?;
+        let mut found = [0.0; N];
+        for (number, word) in found.iter_mut().zip(&words[..count]) {
+            *number = self.number(word)?;
+        }
+        Ok((found, count))
+    }
+
+    /// The same as they are in the file, in f64; they may be NaN or infinite.
+    pub(super) fn any_numbers<const N: usize>(
+        &self,
+        counts: &[usize],
+        expected: &str,
+    ) -> Result<([f64; N], usize), LoadError> {
+        let (words, count): ([&str; N], usize) = self.up_to(counts, expected)?;
+        let mut found = [0.0; N];
+        for (number, word) in found.iter_mut().zip(&words[..count]) {
+            *number = number64(word).ok_or_else(|| self.unexpected_word(word, "a finite number is"))?;
+        }
+        Ok((found, count))
+    }
+
+    /// The words after the keyword, whose count must be one of `counts`, and how many there are.
+    fn up_to<const N: usize>(&self, counts: &[usize], expected: &str) -> Result<([&'a str; N], usize), LoadError> {
         let mut words = [""; N];
         let mut count = 0;
         for word in self.words() {
             *words.get_mut(count).ok_or_else(|| self.unexpected(expected))? = word;
             count += 1;
         }
-        if !counts.contains(&count) {
-            return Err(self.unexpected(expected));
-        }
-        let mut found = [0.0; N];
-        for (number, word) in found.iter_mut().zip(&words[..count]) {
-            *number = self.number(word)?;
-        }
-        Ok((found, count))
+        if counts.contains(&count) { Ok((words, count)) } else { Err(self.unexpected(expected)) }
     }
 
     pub(super) fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> LoadError {
@@ -191,6 +212,20 @@ impl<'a> Statement<'a> {
         let v: f64 = v.parse().map_err(|_| self.unexpected_word(v, "a finite number is"))?;
         Ok(Vec2::new(u, (1.0 - v) as f32))
     }
+}
+
+/// A number, which may be NaN or infinite: an f64 that rounds to the same f32 as the text.
+pub(super) fn number64(word: &str) -> Option<f64> {
+    let x: f64 = word.parse().ok()?;
+    // Rounding to f64 may end in the middle between two f32, from which a second rounding may lead astray.
+    let is_between = x.to_bits() << 35 == 1 << 63 || x.abs() < f64::from(f32::MIN_POSITIVE);
+    if is_between && x != 0.0 {
+        let near: f32 = word.parse().ok()?;
+        if near != x as f32 {
+            return Some(if f64::from(near) > x { x.next_up() } else { x.next_down() });
+        }
+    }
+    Some(x)
 }
 
 /// A statement as errors quote it, cut short: a file may have lines of any length.
@@ -246,5 +281,31 @@ impl Skipped {
                 _ => format!("{name}:{line}: {kind} (and {} more such lines)", count - 1),
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_round_to_the_f32_of_their_text() {
+        // One above the middle of 1 and the next f32, by less than f64 holds; and a middle itself, which rounds to even.
+        let above = "1.00000005960464477539062500000000001";
+        assert_eq!(above.parse::<f64>().unwrap() as f32, 1.0);
+        for (word, expected) in [
+            (above, 1.0_f32.next_up()),
+            ("1.00000005960464477539062499999999999", 1.0),
+            ("1.000000059604644775390625", 1.0),
+            ("0.1", 0.1),
+            ("-0", -0.0),
+            ("1e-46", 0.0),
+            ("1e39", f32::INFINITY),
+        ] {
+            assert_eq!(number64(word).unwrap() as f32, expected, "{word}");
+            assert_eq!(word.parse::<f32>().unwrap(), expected, "{word}");
+        }
+        assert_eq!(number64("500000.123456789"), Some(500_000.123_456_789));
+        assert!(number64("nan").unwrap().is_nan() && number64("x").is_none());
     }
 }

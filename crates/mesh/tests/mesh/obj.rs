@@ -1,7 +1,7 @@
 //! OBJ and MTL files.
 
-use glam::{Vec2, Vec3, Vec4};
-use halfway_mesh::{Model, MtlMaps, MtlMaterial, SourceMaterial, load};
+use glam::{DVec3, Vec2, Vec3, Vec4};
+use halfway_mesh::{Format, Model, MtlMaps, MtlMaterial, SourceMaterial, load, load_bytes};
 
 use crate::common::Folder;
 
@@ -32,6 +32,7 @@ fn the_forms_of_faces() {
         ("comment behind", "f 1 2 3 # 4", 1, false),
         ("continued", "f 1 2 \\\n 3 4", 2, false),
         ("comment that ends in a backslash", "# C:\\\nf 1 2 3", 1, false),
+        ("comment behind that ends in a backslash", "v 9 9 9 # corner \\\nf 1 2 3", 1, false),
         ("white space", " f\t1  2 3 \r", 1, false),
         ("nothing after two slashes", "f 1// 2// 3//", 1, false),
         ("nothing after one slash", "f 1/ 2/ 3/", 1, false),
@@ -126,7 +127,52 @@ fn material_libraries_may_have_spaces_or_several_names() {
 
 #[test]
 fn skipped_contents_give_warnings() {
-    let rows: [(&str, String, &[&str]); 11] = [
+    let rows: [(&str, String, &[&str]); 17] = [
+        (
+            "normal that is not finite",
+            format!("{SQUARE}vn nan nan nan\nvn 0 0 1\nf 1//1 2//2 3//2\n"),
+            &[
+                "model.obj:5: a normal that is not finite is taken for (0, 0, 0)",
+                "``: 1 normals of zero length are replaced by computed ones",
+            ],
+        ),
+        (
+            "index 0",
+            format!("{SQUARE}vn 0 0 1\nvt 0 0\nf 1/1/1 2/1/1 3/1/1\nf 1/1/0 3/0/0 4/1/0\n"),
+            &[
+                "model.obj:8: a normal that there is not, as 0, in `f` counts as none (and 2 more such lines)",
+                "model.obj:8: a texture coordinate that there is not, as 0, in `f` counts as none",
+                "``: 1 of 6 vertices have no texture coordinate; they get (0, 0)",
+                "``: 3 of 6 vertices have no normal; they get a computed one",
+            ],
+        ),
+        (
+            "nothing of what is referred to",
+            format!("{SQUARE}f 1/1/1 2/2/2 3/3/3\nf 1/1/1 3/3/3 4/4/4\n"),
+            &[
+                "model.obj:6: the normal 4 in `f`, and every other beyond the 0 that there are, counts as none",
+                "model.obj:6: the texture coordinate 4 in `f`, and every other beyond the 0 that there are, counts as none",
+            ],
+        ),
+        (
+            "references beyond what there is",
+            format!("{SQUARE}vn 0 0 1\nf 1//1 2//1 3//7\nf 1//-2 3//1 4//1\n"),
+            &[
+                "model.obj:6: the normal 7 in `f`, and every other beyond the 1 that there are, counts as none",
+                "model.obj:7: a normal that there is not, as -2, in `f` counts as none",
+                "``: 2 of 6 vertices have no normal; they get a computed one",
+            ],
+        ),
+        (
+            "position that nothing uses",
+            format!("{SQUARE}v nan inf 0\nv 1 2 1e39\nf 1 2 3\n"),
+            &["model.obj:5: a position that is not finite is skipped; nothing uses it (and 1 more such lines)"],
+        ),
+        (
+            "colours up to 255",
+            "v 0 0 0 255 0 51\nv 1 0 0 0 0 0\nv 0 1 0\nf 1 2 3\n".to_owned(),
+            &["model.obj:1: colours of `v` are whole numbers up to 255, and are divided by it"],
+        ),
         (
             "missing library",
             format!("mtllib gone.mtl\n{SQUARE}f 1 2 3\n"),
@@ -220,12 +266,12 @@ fn skipped_contents_give_warnings() {
 fn malformed_files_are_refused_by_line() {
     const CORNERS: &str = "corners of the form v, v/vt, v//vn or v/vt/vn are expected";
     let with = |line: &str| format!("{SQUARE}{line}\n").into_bytes();
-    let rows: [(&str, Vec<u8>, String); 27] = [
+    let rows: [(&str, Vec<u8>, String); 24] = [
         ("two coordinates", b"v 0 0\n".into(), ":1: `v 0 0`; `v` and three numbers are expected".into()),
         ("five numbers", b"v 0 0 0 1 1\n".into(), ":1: `v 0 0 0 1 1`; `v` and three numbers are expected".into()),
-        ("NaN position", with("v nan 0 0"), ":5: `nan` in `v`; a finite number is expected".into()),
-        ("infinite position", with("v 0 1e400 0"), ":5: `1e400` in `v`; a finite number is expected".into()),
-        ("NaN normal", with("vn 0 0 NaN"), ":5: `NaN` in `vn`; a finite number is expected".into()),
+        ("NaN position", with("v nan 0 0\nf 1 2 5"), ":5: `NaN` in `v`; a finite number is expected".into()),
+        ("infinite position", with("v 0 1e400 0\nl 1 5"), ":5: `inf` in `v`; a finite number is expected".into()),
+        ("no number in a normal", with("vn 0 0 x"), ":5: `x` in `vn`; a finite number is expected".into()),
         ("two of a normal", with("vn 0 0"), ":5: `vn 0 0`; `vn` and three numbers are expected".into()),
         ("no texture coordinate", with("vt"), ":5: `vt`; `vt` and two numbers are expected".into()),
         ("infinite texture coordinate", with("vt inf 0"), ":5: `inf` in `vt`; a finite number is expected".into()),
@@ -245,25 +291,9 @@ fn malformed_files_are_refused_by_line() {
             ":5: the position -5 in `f`; a position from 1 to 4, or from -4 to -1, is expected".into(),
         ),
         (
-            "least of all indices",
-            with("vt 0 0\nf 1/1 2/-9223372036854775808 3/1"),
-            ":6: the texture coordinate -9223372036854775808 in `f`; a texture coordinate from 1 to 1, or from -1 to -1, is expected"
-                .into(),
-        ),
-        (
             "largest of all indices",
             with("f 1 2 9223372036854775807"),
             ":5: the position 9223372036854775807 in `f`; a position from 1 to 4, or from -4 to -1, is expected".into(),
-        ),
-        (
-            "no texture coordinates",
-            with("f 1/1 2/1 3/1"),
-            ":5: the texture coordinate 1 in `f`; a texture coordinate that a `vt` defines is expected".into(),
-        ),
-        (
-            "no normals",
-            with("f 1//1 2//1 3//-1"),
-            ":5: the normal -1 in `f`; a normal that a `vn` defines is expected".into(),
         ),
         ("four parts", with("f 1/1/1/1 2 3"), format!(":5: `1/1/1/1` in `f`; {CORNERS}")),
         ("not a number", with("f 1 2 x"), format!(":5: `x` in `f`; {CORNERS}")),
@@ -365,6 +395,16 @@ fn colours_of_vertices_are_kept() {
     // 0.5 in sRGB, decoded; a few roundings of f32.
     assert!(colors[1].distance(Vec4::new(1.0, 0.0, 0.214_041_14, 1.0)) < 1e-6, "{}", colors[1]);
     assert!(load_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").parts[0].mesh.colors().is_none());
+    let colors = |rest: &str| {
+        let model = load_text(&format!("v 0 0 0\nv 1 0 0 255 0 51\nv 0 1 0 {rest}\nf 1 2 3\n"));
+        model.parts[0].mesh.colors().unwrap().to_vec()
+    };
+    let of_255 = colors("0 0 0");
+    assert_eq!((of_255[0], of_255[2]), (Vec4::ONE, Vec4::W));
+    // 51 / 255 is 0.2 in sRGB, decoded.
+    assert!(of_255[1].distance(Vec4::new(1.0, 0.0, 0.033_104_767, 1.0)) < 1e-6, "{}", of_255[1]);
+    // Fractions beside them: the numbers are what they are.
+    assert!(colors("0.5 0 0")[1].x > 1e5);
 }
 
 #[test]
@@ -482,4 +522,59 @@ fn many_parts_and_faces_are_read_in_proportion() {
     let text: String = vertices.chain(faces).chain(["g ring\nf".to_owned()]).chain(ring).collect();
     let model = load_text(&text);
     assert_eq!((model.parts.len(), model.triangle_count()), (5001, 9999 + 9998));
+}
+
+#[test]
+fn lines_may_end_in_carriage_returns() {
+    let mtl = "newmtl red\nKd 1 0 0\n";
+    let obj = format!("# a comment\nmtllib model.mtl\n{SQUARE}usemtl red\nf 1 2 3\nf 1 3 \\\n4\n");
+    let plain = load_with_mtl(&obj, mtl);
+    assert_eq!(plain.triangle_count(), 2);
+    for end in ["\r", "\r\n"] {
+        assert_eq!(load_with_mtl(&obj.replace('\n', end), &mtl.replace('\n', end)), plain, "{end:?}");
+    }
+    let error = load_bytes(Format::Obj, b"v 0 0 0\rv 0 0\r").unwrap_err();
+    assert_eq!(error.to_string(), "model.obj:2: `v 0 0`; `v` and three numbers are expected");
+}
+
+#[test]
+fn comments_end_with_their_line() {
+    let model = load_text("v -1 -1 0 # corner\\\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n");
+    assert_eq!(
+        model.parts[0].mesh.positions(),
+        [Vec3::new(-1., -1., 0.), Vec3::new(1., -1., 0.), Vec3::new(1., 1., 0.)]
+    );
+}
+
+#[test]
+fn models_far_away_have_an_origin() {
+    let near = load_text("v 0 0 0\nv 0.25 0 0\nv 0.125 0.25 0.125\nv 0 0.25 0\nf 1 2 3 4\n");
+    assert_eq!(near.origin, DVec3::ZERO);
+    let far = load_text(
+        "v 0 0 0\nv 408201.5 0 4080928\nv 408201.75 0 4080928\nv 408201.625 0.25 4080928.125\nv 408201.5 0.25 4080928\nf 2 3 4 5\n",
+    );
+    assert!(far.origin.distance(DVec3::new(408_201.5, 0.0, 4_080_928.0)) < 1.0, "{}", far.origin);
+    let shift = (DVec3::new(408_201.5, 0.0, 4_080_928.0) - far.origin).as_vec3();
+    let [near, far] = [&near, &far].map(|model| &model.parts[0].mesh);
+    let moved: Vec<Vec3> = near.positions().iter().map(|p| *p + shift).collect();
+    assert_eq!(far.positions(), moved);
+    assert_eq!((far.indices(), far.normals()), (near.indices(), near.normals()));
+    // Lines, too.
+    let lines = load_text("v 1000000.125 0 0\nv 1000000.375 0 0\nl 1 2\n");
+    assert_eq!(lines.lines[0].lines.bounds().size().x, 0.25);
+}
+
+#[test]
+fn errors_name_their_line_in_large_files() {
+    // Several pieces that are read at once, with a continued line at every place where one may end.
+    let mut text = String::new();
+    for i in 0..60_000 {
+        text += &format!("v {i} 0 1\nv {i} 1 \\\n 0\nvt 0 0\nf -1/-1 -2/-1 1/1\n");
+    }
+    let model = load_bytes(Format::Obj, text.as_bytes()).unwrap();
+    assert_eq!((model.triangle_count(), model.parts[0].mesh.positions().len()), (60_000, 120_000));
+    let error = load_bytes(Format::Obj, format!("{text}f 1 2 x\n").as_bytes()).unwrap_err();
+    assert!(error.to_string().starts_with("model.obj:300001: `x` in `f`"), "{error}");
+    let error = load_bytes(Format::Obj, format!("f 1 2 3\n{text}f 1 2 0\n").as_bytes()).unwrap_err();
+    assert!(error.to_string().starts_with("model.obj:300002: the position 0 in `f`"), "{error}");
 }

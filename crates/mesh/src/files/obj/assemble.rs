@@ -3,10 +3,12 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use glam::{Mat4, Vec2, Vec3};
+use glam::{DVec3, Mat4, Vec2, Vec3};
 
 use crate::classes::Classes;
 use crate::files::LoadError;
+use crate::files::srgb::decoded;
+use crate::files::text::Skipped;
 use crate::normals::{Smoothed, grouped_normals};
 use crate::numbering::{DistinctKeys, Numbering, position_key};
 use crate::{LinePart, Lines, Mesh, MeshError, NormalWeighting, Part};
@@ -14,17 +16,47 @@ use crate::{LinePart, Lines, Mesh, MeshError, NormalWeighting, Part};
 /// The vertices that faces refer to.
 #[derive(Default)]
 pub(super) struct ObjVertices {
+    /// The positions as the file says them, until they are placed.
+    pub(super) read: Vec<DVec3>,
+    /// The positions, counted from the model's origin.
     pub(super) positions: Vec<Vec3>,
     pub(super) uvs: Vec<Vec2>,
     pub(super) normals: Vec<Vec3>,
-    /// Linear RGB of the first positions; the others are white.
+    /// The colours of the first positions: as in the file, NaN for none, and then linear RGB, white for none. The other
+    /// positions are white.
     pub(super) colors: Vec<Vec3>,
+    /// The first line with a colour beyond 1.
+    bright: Option<usize>,
+    /// Whether some colour is no whole number from 0 to 255.
+    has_fractions: bool,
 }
 
 impl ObjVertices {
     /// How many positions, texture coordinates and normals there are.
     pub(super) fn counts(&self) -> [usize; 3] {
-        [self.positions.len(), self.uvs.len(), self.normals.len()]
+        [self.read.len(), self.uvs.len(), self.normals.len()]
+    }
+
+    /// Gives the next position a colour.
+    pub(super) fn add_color(&mut self, color: Vec3, line: usize) {
+        if color.max_element() > 1.0 {
+            self.bright.get_or_insert(line);
+        }
+        self.has_fractions |= color.fract() != Vec3::ZERO || color.min_element() < 0.0 || color.max_element() > 255.0;
+        self.colors.resize(self.read.len(), Vec3::NAN);
+        self.colors.push(color);
+    }
+
+    /// Decodes the colours. Whole numbers up to 255 mean 255 times less.
+    pub(super) fn decode_colors(&mut self, skipped: &mut Skipped) {
+        let line = self.bright.filter(|_| !self.has_fractions);
+        if let Some(line) = line {
+            skipped.add(line, "colours of `v` are whole numbers up to 255, and are divided by it");
+        }
+        let one = if line.is_some() { 255.0 } else { 1.0 };
+        for color in &mut self.colors {
+            *color = if color.is_nan() { Vec3::ONE } else { Vec3::from_array((*color / one).to_array().map(decoded)) };
+        }
     }
 }
 
@@ -33,7 +65,7 @@ pub(super) struct Draft {
     name: String,
     pub(super) material: Option<String>,
     /// The distinct corners, as indices from 1 of position, texture coordinate and normal, 0 for none.
-    corners: DistinctKeys,
+    pub(super) corners: DistinctKeys,
     indices: Vec<u32>,
     /// The smoothing group of each triangle; triangles beyond the end have group 0.
     groups: Vec<u32>,
@@ -85,12 +117,19 @@ impl Draft {
         Ok(LinePart { name: name.clone(), lines, material, world_from_part: Mat4::IDENTITY })
     }
 
-    pub(super) fn triangle(&mut self, corners: [[u32; 3]; 3], group: u32) {
+    /// The positions, numbered from 1, of its faces, lines and points.
+    pub(super) fn used_positions(&self) -> impl Iterator<Item = u32> {
+        let of_faces = self.corners.keys().iter().map(|key| key[0]);
+        of_faces.chain(self.segments.as_flattened().iter().chain(&self.points).copied())
+    }
+
+    /// Adds a triangle of numbered corners.
+    pub(super) fn triangle(&mut self, corners: [u32; 3], group: u32) {
         if group != 0 {
             self.groups.resize(self.indices.len() / 3, 0);
             self.groups.push(group);
         }
-        self.indices.extend(corners.map(|corner| self.corners.number(corner)));
+        self.indices.extend(corners);
     }
 
     /// The part, and, where it has no normals and `normals_later`, the data to compute them; they are +Y until then.
@@ -102,7 +141,13 @@ impl Draft {
         warnings: &mut Vec<String>,
     ) -> Result<(Part, Option<Unsmoothed>), LoadError> {
         let Self { name, corners, indices, groups, .. } = self;
-        let keys = corners.into_keys();
+        let mut keys = corners.into_keys();
+        // What the file does not define, which a warning has said.
+        let [_, uvs, normals] = vertices.counts().map(|count| count as u32);
+        for [_, uv, normal] in &mut keys {
+            *uv = if *uv > uvs { 0 } else { *uv };
+            *normal = if *normal > normals { 0 } else { *normal };
+        }
         let mut given = |kind: usize, what: &str| {
             let missing = keys.iter().filter(|key| key[kind] == 0).count();
             if missing != 0 && missing != keys.len() {

@@ -1,35 +1,41 @@
 //! Wavefront OBJ.
 
 mod assemble;
+mod chunk;
+mod corners;
 mod mtl;
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 use self::assemble::{Draft, ObjVertices};
-use super::source::{ModelFolder, Source};
+use self::chunk::{ObjChunk, RunKind, StatementRun};
+use self::corners::CornerNumbers;
+use super::source::{ModelFolder, Reader, Source};
 use super::srgb::decoded;
 use super::text::{Skipped, Statement, Statements, abridged};
 use super::{LoadError, polygon};
-use crate::{Model, SourceMaterial};
+use crate::{Model, SourceMaterial, origin_of_box};
+
+/// So many bytes are a piece of work for a thread.
+const CHUNK: usize = 1 << 20;
 
 /// Reads vertices, polygons, lines, points, groups, smoothing groups and materials; other statements are skipped with a warning. A
 /// missing MTL file is a warning, a malformed one an error.
 pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
-    let path = source.path;
-    let mut lines = Statements::new(source.reader, true);
+    let Source { path, mut reader, around } = source;
     let mut obj = Obj::default();
-    while let Some(statement) = lines.next()? {
-        obj.add(&statement)?;
-    }
+    while obj.take_chunks(&mut reader)? {}
     obj.check_forward_references(path)?;
     obj.cut_late_polygons();
+    let origin = obj.place_vertices(path)?;
+    obj.vertices.decode_colors(&mut obj.skipped);
 
-    lines.warn_of_encoding(&mut obj.skipped);
     let mut warnings = Vec::new();
-    let materials = obj.read_libraries(source.around, &mut warnings)?;
+    let materials = obj.read_libraries(around, &mut warnings)?;
     let named = NamedMaterials::new(&materials);
     obj.warn_of_unknown_materials(&named);
     let Obj { vertices, drafts, smoothing, skipped, .. } = obj;
@@ -44,7 +50,7 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     for (part, material) in parts.iter_mut().zip(used) {
         part.material = material;
     }
-    Ok(Model { parts, lines, materials, warnings, ..Model::default() })
+    Ok(Model { origin, parts, lines, materials, warnings, ..Model::default() })
 }
 
 /// The indices of a face's corner: keyword and meaning.
@@ -69,11 +75,24 @@ struct LatePolygon {
     corners: Vec<[u32; 3]>,
 }
 
+/// The statement that refers to something.
+#[derive(Clone, Copy, Debug)]
+struct Referrer<'a> {
+    path: &'a Path,
+    line: usize,
+    keyword: &'static str,
+}
+
 /// The contents read so far.
 #[derive(Default)]
 struct Obj {
     vertices: ObjVertices,
+    /// How many lines.
+    lines: usize,
     drafts: Vec<Draft>,
+    numbers: CornerNumbers,
+    /// The positions that are not finite, and their lines. They are errors only if something uses them.
+    not_finite: Vec<(usize, usize)>,
     /// The drafts by their names and materials.
     draft_of: HashMap<(String, Option<String>), usize>,
     /// The draft that faces go to; `None` until the next face after the name or the material has changed.
@@ -93,14 +112,62 @@ struct Obj {
 }
 
 impl Obj {
+    /// Reads on; returns whether there was anything.
+    fn take_chunks(&mut self, reader: &mut Reader) -> Result<bool, LoadError> {
+        let mut chunks: Vec<Vec<u8>> = Vec::new();
+        while chunks.len() < rayon::current_num_threads() {
+            let mut bytes = Vec::new();
+            if !reader.lines(CHUNK, &mut bytes)? {
+                break;
+            }
+            chunks.push(bytes);
+        }
+        if self.lines == 0 && chunks.first().is_some_and(|first| first.starts_with(b"\xEF\xBB\xBF")) {
+            chunks[0].drain(..3);
+        }
+        let read: Vec<ObjChunk> = match &chunks[..] {
+            [one] => vec![ObjChunk::new(one)],
+            several => several.par_iter().map(|bytes| ObjChunk::new(bytes)).collect(),
+        };
+        for (bytes, chunk) in chunks.iter().zip(read) {
+            self.take(reader.path(), bytes, chunk)?;
+        }
+        Ok(!chunks.is_empty())
+    }
+
+    /// Adds the statements of a chunk.
+    fn take(&mut self, path: &Path, bytes: &[u8], chunk: ObjChunk) -> Result<(), LoadError> {
+        let (mut positions, mut uvs) = (&chunk.positions[..], &chunk.uvs[..]);
+        let (mut normals, mut corners) = (&chunk.normals[..], &chunk.corners[..]);
+        for StatementRun { kind, line, count } in chunk.runs {
+            let line = self.lines + line;
+            match kind {
+                RunKind::Positions => self.vertices.read.extend_from_slice(first(&mut positions, count)),
+                RunKind::Uvs => self.vertices.uvs.extend_from_slice(first(&mut uvs, count)),
+                RunKind::Normals => self.vertices.normals.extend_from_slice(first(&mut normals, count)),
+                RunKind::Faces(each) => {
+                    for (face, line) in first(&mut corners, each * count).chunks_exact(each).zip(line + 1..) {
+                        self.face_of(Referrer { path, line, keyword: "f" }, face)?;
+                    }
+                }
+                RunKind::Others(range) => {
+                    let mut others = Statements::new(Reader::of_chunk(path, &bytes[range]), true).after(line);
+                    while let Some(statement) = others.next()? {
+                        self.add(&statement)?;
+                    }
+                    others.warn_of_encoding(&mut self.skipped);
+                }
+            }
+        }
+        self.lines += chunk.lines;
+        Ok(())
+    }
+
     fn add(&mut self, statement: &Statement) -> Result<(), LoadError> {
         match statement.keyword {
             "v" => self.position(statement)?,
             "vt" => self.texture_coordinate(statement)?,
-            "vn" => {
-                let ([x, y, z], _) = statement.numbers(&[3], "`vn` and three numbers are")?;
-                self.vertices.normals.push(Vec3::new(x, y, z));
-            }
+            "vn" => self.normal(statement)?,
             "f" | "fo" => self.face(statement)?,
             "l" => self.line(statement)?,
             "p" => self.points(statement)?,
@@ -130,20 +197,34 @@ impl Obj {
 
     /// `v x y z`, perhaps with a weight, which is for free-form curves, or with a colour.
     fn position(&mut self, statement: &Statement) -> Result<(), LoadError> {
-        let (numbers, count) = statement.numbers::<7>(&[3, 4, 6, 7], "`v` and three numbers are")?;
+        let (numbers, count) = statement.any_numbers::<7>(&[3, 4, 6, 7], "`v` and three numbers are")?;
         let [x, y, z, r, g, b, _] = numbers;
+        let position = DVec3::new(x, y, z);
+        if !position.as_vec3().is_finite() {
+            self.not_finite.push((self.vertices.read.len(), statement.line));
+        }
         if count >= 6 {
-            let linear = Vec3::new(r, g, b).to_array().map(decoded);
-            if !linear.iter().all(|x| x.is_finite()) {
+            let color = Vec3::new(r as f32, g as f32, b as f32);
+            if !color.to_array().map(decoded).iter().all(|x| x.is_finite()) {
                 return Err(statement.unexpected("a colour of three numbers from 0 to 1 is"));
             }
-            self.vertices.colors.resize(self.vertices.positions.len(), Vec3::ONE);
-            self.vertices.colors.push(Vec3::from_array(linear));
+            self.vertices.add_color(color, statement.line);
         }
         if count == 7 {
             self.skipped.add(statement.line, "the seventh number of `v` is skipped");
         }
-        self.vertices.positions.push(Vec3::new(x, y, z));
+        self.vertices.read.push(position);
+        Ok(())
+    }
+
+    fn normal(&mut self, statement: &Statement) -> Result<(), LoadError> {
+        let ([x, y, z], _) = statement.any_numbers(&[3], "`vn` and three numbers are")?;
+        let normal = DVec3::new(x, y, z).as_vec3();
+        if !normal.is_finite() {
+            self.skipped.add(statement.line, "a normal that is not finite is taken for (0, 0, 0)");
+        }
+        // One of length 0 is made anew.
+        self.vertices.normals.push(if normal.is_finite() { normal } else { Vec3::ZERO });
         Ok(())
     }
 
@@ -187,18 +268,49 @@ impl Obj {
             let corner = self.corner(statement, word)?;
             self.corners.push(corner);
         }
+        self.polygon(statement.line);
+        Ok(())
+    }
+
+    /// A face whose corners have been read ahead.
+    fn face_of(&mut self, referrer: Referrer, corners: &[[i32; 3]]) -> Result<(), LoadError> {
+        self.corners.clear();
+        let counts = self.vertices.counts();
+        for corner in corners {
+            let mut found = [0; 3];
+            for kind in 0..3 {
+                let index = corner[kind];
+                found[kind] = match index {
+                    0 => 0,
+                    1.. if index as usize <= counts[kind] => index as u32,
+                    _ => self.absolute(referrer, kind, index.into())?,
+                };
+            }
+            self.corners.push(found);
+        }
+        self.polygon(referrer.line);
+        Ok(())
+    }
+
+    /// Adds the face of the corners that have been read.
+    fn polygon(&mut self, line: usize) {
         let draft = self.draft();
         let group = self.smoothing.unwrap_or(0);
         if let &[a, b, c] = &self.corners[..] {
-            self.drafts[draft].triangle([a, b, c], group);
-        } else if self.corners.iter().all(|[v, ..]| *v as usize <= self.vertices.positions.len()) {
+            let numbers = [a, b, c].map(|corner| self.number(draft, corner));
+            self.drafts[draft].triangle(numbers, group);
+        } else if self.corners.iter().all(|[v, ..]| *v as usize <= self.vertices.read.len()) {
             let corners = std::mem::take(&mut self.corners);
-            self.cut(draft, group, &corners, statement.line);
+            self.cut(draft, group, &corners, line);
             self.corners = corners;
         } else {
             self.late.push(LatePolygon { draft, group, corners: self.corners.clone() });
         }
-        Ok(())
+    }
+
+    /// The number of a corner in a draft.
+    fn number(&mut self, draft: usize, corner: [u32; 3]) -> u32 {
+        self.numbers.number(&mut self.drafts, draft, corner, self.vertices.read.len())
     }
 
     /// `l`: a line through all its vertices.
@@ -231,7 +343,7 @@ impl Obj {
             let (vertex, uv) = word.split_once('/').map_or((word, ""), |(vertex, uv)| (vertex, uv));
             let index =
                 vertex.parse().map_err(|_| statement.unexpected_word(word, "vertices of the form v or v/vt are"))?;
-            vertices.push(self.absolute(statement, 0, index)?);
+            vertices.push(self.absolute(referrer_of(statement), 0, index)?);
             has_uvs |= !uv.is_empty();
         }
         if has_uvs {
@@ -255,10 +367,11 @@ impl Obj {
     }
 
     fn cut(&mut self, draft: usize, group: u32, corners: &[[u32; 3]], line: usize) {
-        self.points.clear();
-        self.points.extend(corners.iter().map(|[v, ..]| self.vertices.positions[*v as usize - 1]));
+        let numbers: Vec<u32> = corners.iter().map(|corner| self.number(draft, *corner)).collect();
+        let positions = &self.vertices.read;
+        polygon::near(corners.iter().map(|[v, ..]| positions[*v as usize - 1]), &mut self.points);
         let draft = &mut self.drafts[draft];
-        let clean = polygon::cut(&self.points, |triangle| draft.triangle(triangle.map(|i| corners[i as usize]), group));
+        let clean = polygon::cut(&self.points, |triangle| draft.triangle(triangle.map(|i| numbers[i as usize]), group));
         if !clean {
             self.skipped.add(line, "a polygon that crosses itself, or has too many corners, is cut somehow");
         }
@@ -282,41 +395,80 @@ impl Obj {
             if kind > 0 && word.is_empty() {
                 continue;
             }
-            *place = self.absolute(statement, kind, word.parse().map_err(|_| malformed())?)?;
+            *place = self.absolute(referrer_of(statement), kind, word.parse().map_err(|_| malformed())?)?;
         }
         Ok(found)
     }
 
     /// A negative index counts back from the last one defined; 0 is none.
-    fn absolute(&mut self, statement: &Statement, kind: usize, index: i64) -> Result<u32, LoadError> {
+    fn absolute(&mut self, referrer: Referrer, kind: usize, index: i64) -> Result<u32, LoadError> {
         let count = self.vertices.counts()[kind] as i64;
-        let keyword = match statement.keyword {
-            "l" => "l",
-            "p" => "p",
-            _ => "f",
-        };
+        let Referrer { line, keyword, .. } = referrer;
         let absolute = match index {
             1.. => index,
             _ if index < 0 && index >= -count => count + 1 + index,
-            _ => return Err(out_of_range(statement.path, (statement.line, keyword), kind, index, count)),
+            _ if kind == 0 => return Err(out_of_range(referrer, kind, index, count)),
+            _ => {
+                let name = REFERRED[kind].1;
+                self.skipped
+                    .add(line, format!("a {name} that there is not, as {index}, in `{keyword}` counts as none"));
+                return Ok(0);
+            }
         };
         if absolute > count && self.forward[kind].is_none_or(|furthest| absolute > furthest.index) {
-            self.forward[kind] = Some(ForwardReference { line: statement.line, keyword, index });
+            self.forward[kind] = Some(ForwardReference { line, keyword, index });
         }
         // An index beyond 32 bits is beyond every count, which the check of forward references reports.
         Ok(u32::try_from(absolute).unwrap_or(u32::MAX))
     }
 
-    /// Checks the largest reference of each kind, which bounds the others.
-    fn check_forward_references(&self, path: &Path) -> Result<(), LoadError> {
+    /// Checks the largest reference of each kind, which bounds the others. Texture coordinates and normals that there are
+    /// not count as none.
+    fn check_forward_references(&mut self, path: &Path) -> Result<(), LoadError> {
         for (kind, count) in self.vertices.counts().into_iter().enumerate() {
-            if let Some(ForwardReference { line, keyword, index }) =
-                self.forward[kind].filter(|found| found.index > count as i64)
-            {
-                return Err(out_of_range(path, (line, keyword), kind, index, count as i64));
+            let beyond = self.forward[kind].filter(|found| found.index > count as i64);
+            let Some(ForwardReference { line, keyword, index }) = beyond else { continue };
+            if kind == 0 {
+                return Err(out_of_range(Referrer { path, line, keyword }, kind, index, count as i64));
             }
+            let name = REFERRED[kind].1;
+            self.skipped.add(
+                line,
+                format!("the {name} {index} in `{keyword}`, and every other beyond the {count} that there are, counts as none"),
+            );
         }
         Ok(())
+    }
+
+    /// Places the vertices by their origin, which it returns. A position that is not finite must not be used.
+    fn place_vertices(&mut self, path: &Path) -> Result<DVec3, LoadError> {
+        let read = &mut self.vertices.read;
+        let used = || self.drafts.iter().flat_map(Draft::used_positions).map(|v| v as usize - 1);
+        if !self.not_finite.is_empty() {
+            let is_finite = |v: usize| read[v].as_vec3().is_finite();
+            let used: HashSet<usize> = used().filter(|v| !is_finite(*v)).collect();
+            for &(v, line) in &self.not_finite {
+                if used.contains(&v) {
+                    let wrong = read[v].to_array().into_iter().find(|x| !(*x as f32).is_finite()).unwrap_or_default();
+                    return Err(LoadError::Line {
+                        path: path.to_owned(),
+                        line,
+                        found: format!("`{wrong}` in `v`"),
+                        expected: "a finite number is".to_owned(),
+                    });
+                }
+                self.skipped.add(line, "a position that is not finite is skipped; nothing uses it");
+                read[v] = DVec3::ZERO;
+            }
+        }
+        let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for v in used() {
+            (min, max) = (min.min(read[v]), max.max(read[v]));
+        }
+        let origin = origin_of_box(min, max);
+        self.vertices.positions = read.par_iter().with_min_len(1 << 14).map(|p| (*p - origin).as_vec3()).collect();
+        *read = Vec::new();
+        Ok(origin)
     }
 
     /// The materials of all MTL files, each read once. An unreadable file is a warning.
@@ -383,7 +535,24 @@ fn before_comment(name: &str) -> &str {
     name.split_once(" #").map_or(name, |(name, _)| name.trim_ascii_end())
 }
 
-fn out_of_range(path: &Path, (line, statement): (usize, &str), kind: usize, index: i64, count: i64) -> LoadError {
+fn referrer_of<'a>(statement: &Statement<'a>) -> Referrer<'a> {
+    let keyword = match statement.keyword {
+        "l" => "l",
+        "p" => "p",
+        _ => "f",
+    };
+    Referrer { path: statement.path, line: statement.line, keyword }
+}
+
+/// Takes the first so many.
+fn first<'a, T>(rest: &mut &'a [T], count: usize) -> &'a [T] {
+    let (own, others) = rest.split_at(count);
+    *rest = others;
+    own
+}
+
+fn out_of_range(referrer: Referrer, kind: usize, index: i64, count: i64) -> LoadError {
+    let Referrer { path, line, keyword: statement } = referrer;
     let (keyword, name) = REFERRED[kind];
     LoadError::Line {
         path: path.to_owned(),
