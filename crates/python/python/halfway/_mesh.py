@@ -159,7 +159,7 @@ class Placed(NamedTuple):
     """A mesh to be drawn, where it stands, and keys of its object."""
 
     mesh: Mesh
-    pose: Floats | None
+    pose: npt.NDArray[np.float64] | None
     keys: dict[str, Any]
 
 
