@@ -58,7 +58,8 @@ pub struct LoadedModel {
     pub path: PathBuf,
     /// The model.
     pub model: Arc<Model>,
-    /// The material of parts that have none of their own.
+    /// The material of parts that have none of their own. [`unknown_material`](crate::options::unknown_material) is white
+    /// where they have colours at their vertices.
     pub material: Material,
 }
 

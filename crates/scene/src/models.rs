@@ -19,8 +19,9 @@ use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transfo
 use crate::mesh::{LoadedModel, MeshEntry};
 use crate::model_animation::which_is_played;
 use crate::object::ObjectEntry;
+use crate::options::{finish, unknown_material};
 use crate::scalars::{ColorMap, Scalars};
-use halfway_lighting::{AlphaMode, Faces, LightComponent, Material};
+use halfway_lighting::{AlphaMode, Faces, LightComponent, Material, VertexColors};
 
 /// The mesh of an object.
 pub(crate) struct ObjectShape {
@@ -78,6 +79,13 @@ pub(crate) struct ShapeLight {
     pub(crate) name: String,
     pub(crate) light: LightComponent,
     pub(crate) object_from_light: Transform,
+}
+
+/// The material of a part that has none of its own: white under colours of vertices that nobody gave another, so that they
+/// are seen as they are.
+fn under(has_colors: bool, object: &ObjectEntry, given: Material) -> Material {
+    let are_shown = has_colors && object.vertex_colors == VertexColors::Multiply;
+    if are_shown && given == unknown_material() { finish(LinearRgba::WHITE) } else { given }
 }
 
 /// The shapes of a scene, each loaded once however often it is used.
@@ -153,16 +161,15 @@ impl<'a> Shapes<'a> {
                 for part in shape.parts.iter_mut().filter(|part| part.own.is_none()) {
                     let is_open = object.faces.is_none() && part.mesh.is_open();
                     let faces = if is_open { Faces::Both } else { Faces::default() };
+                    let material = under(part.mesh.colors().is_some(), object, *material);
                     let alpha = AlphaMode::default();
-                    part.own = Some(ModelMaterial { material: *material, faces, shading: None, alpha });
+                    part.own = Some(ModelMaterial { material, faces, shading: None, alpha });
                 }
-                let own = ModelMaterial {
-                    material: *material,
-                    faces: Faces::default(),
-                    alpha: AlphaMode::default(),
-                    shading: None,
-                };
-                shape.lines.iter_mut().for_each(|lines| lines.own = lines.own.or(Some(own)));
+                for lines in shape.lines.iter_mut().filter(|lines| lines.own.is_none()) {
+                    let material = under(lines.lines.colors().is_some(), object, *material);
+                    let (faces, alpha) = (Faces::default(), AlphaMode::default());
+                    lines.own = Some(ModelMaterial { material, faces, alpha, shading: None });
+                }
                 return Ok(shape);
             }
             MeshEntry::UvSphere(sphere) => Mesh::from(*sphere),

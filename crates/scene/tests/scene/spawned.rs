@@ -13,7 +13,7 @@ use halfway_lighting::{
     AlphaMode, BackMaterial, Cone, DirectionalLight, Faces, Frequency, GlobalAmbient, LightRig, Material, PointLight,
     Reflectance, Shading, SpotLight, Terms, Viewer, light_direction,
 };
-use halfway_lighting::{Camera, Encoding, Intensity, Projection, Samples};
+use halfway_lighting::{Camera, Encoding, Intensity, Projection, Samples, VertexColors};
 use halfway_mesh::{Mesh, Mesh3d, MeshPlugin};
 
 use halfway_scene::{SceneError, SceneFile, Spawned, spawn};
@@ -376,6 +376,29 @@ fn loaded_models_show_both_sides_of_open_surfaces() {
         let mesh = get::<Mesh3d>(&app, object).unwrap();
         let mesh = app.world().resource::<Assets<Mesh>>().get(&mesh.0).unwrap();
         assert_eq!(mesh.positions().len(), corners, "a tetrahedron is creased");
+    }
+}
+
+#[test]
+fn loaded_models_show_the_colours_of_their_vertices_as_they_are() {
+    use halfway_mesh::{Format, load_bytes};
+    use halfway_scene::options::{finish, unknown_material};
+    use halfway_scene::{LoadedModel, MeshEntry, ObjectEntry};
+
+    let colored = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n";
+    let white = finish(LinearRgba::WHITE);
+    for (given, colors, expected) in [
+        (unknown_material(), VertexColors::Multiply, white),
+        (unknown_material(), VertexColors::Ignore, unknown_material()),
+        (Material::BRASS, VertexColors::Multiply, Material::BRASS),
+    ] {
+        let model = load_bytes(Format::Obj, colored.as_bytes()).unwrap().into();
+        let model = LoadedModel { path: "a.obj".into(), model, material: given };
+        let object = ObjectEntry { vertex_colors: colors, ..ObjectEntry::new(MeshEntry::Model(model)) };
+        let scene = SceneFile { objects: vec![object], ..SceneFile::default() };
+        let mut app = app();
+        let spawned = spawn(&scene, Path::new(""), app.world_mut()).unwrap();
+        assert_eq!(get::<Material>(&app, spawned.objects[0]), Some(expected));
     }
 }
 
