@@ -272,3 +272,82 @@ fn specular_glossiness_materials_are_read() {
         ["materials[0]: of the specular-glossiness texture only the color counts; the glossiness is the factor's"]
     );
 }
+
+/// A square of two triangles whose positions and indices are packed: two buffers, of which the second has no data.
+fn packed_square() -> String {
+    // By meshoptimizer's encoder.
+    let (positions, indices) = (
+        "a00000013f000000ffffff013f0000007e7d7e0000010c000000ff010c0000007e000000000000000000000000000000000000000000000000000000000000000000000000",
+        "e1f010007687566778a9866589689801690000",
+    );
+    let data: String = [positions, indices]
+        .concat()
+        .as_bytes()
+        .chunks(2)
+        .map(|two| format!("%{}{}", char::from(two[0]), char::from(two[1])))
+        .collect();
+    let (first, second) = (positions.len() / 2, indices.len() / 2);
+    let length = first + second;
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},"extensionsUsed":["EXT_meshopt_compression"],"extensionsRequired":["EXT_meshopt_compression"],
+        "nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":4,"min":[0,0,0],"max":[1,1,0]}},
+            {{"bufferView":1,"componentType":5123,"type":"SCALAR","count":6}}],
+        "bufferViews":[
+            {{"buffer":1,"byteLength":48,"byteStride":12,"extensions":{{"EXT_meshopt_compression":
+                {{"buffer":0,"byteLength":{first},"byteStride":12,"count":4,"mode":"ATTRIBUTES"}}}}}},
+            {{"buffer":1,"byteOffset":48,"byteLength":12,"extensions":{{"EXT_meshopt_compression":
+                {{"buffer":0,"byteOffset":{first},"byteLength":{second},"byteStride":2,"count":6,"mode":"TRIANGLES"}}}}}}],
+        "buffers":[{{"byteLength":{length},"uri":"data:,{data}"}},
+            {{"byteLength":60,"extensions":{{"EXT_meshopt_compression":{{"fallback":true}}}}}}]}}"#
+    )
+}
+
+#[test]
+fn packed_views_are_unpacked() {
+    let text = packed_square();
+    for text in [text.clone(), text.replace("EXT_meshopt", "KHR_meshopt")] {
+        let model = load_bytes(Format::Gltf, text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(model.warnings, [SMOOTH]);
+        let mesh = &model.parts[0].mesh;
+        assert_eq!(mesh.positions(), [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)]);
+        let mut triangles: Vec<[u32; 3]> = mesh.triangles().collect();
+        triangles.iter_mut().for_each(|corners| {
+            let least = (0..3).min_by_key(|k| corners[*k]).unwrap();
+            corners.rotate_left(least);
+        });
+        assert_eq!(triangles, [[0, 1, 2], [1, 3, 2]]);
+    }
+    for (from, to, expected) in [
+        (
+            "\"count\":4,\"mode\"",
+            "\"count\":9,\"mode\"",
+            "bufferViews[0].extensions.EXT_meshopt_compression: count 9; at least one item, and no more than the view holds, is expected",
+        ),
+        (
+            "\"byteStride\":2,",
+            "\"byteStride\":3,",
+            "bufferViews[1].extensions.EXT_meshopt_compression: byteStride 3; 2 or 4 is expected",
+        ),
+        (
+            "\"buffer\":0,\"byteOffset\"",
+            "\"buffer\":1,\"byteOffset\"",
+            "bytes that are not there; a part of a buffer with data is expected",
+        ),
+        (
+            "\"count\":6,\"mode\"",
+            "\"count\":3,\"mode\"",
+            "bufferViews[1].extensions.EXT_meshopt_compression: packed data that do not make 3 items; a whole stream is expected",
+        ),
+        ("\"TRIANGLES\"", "\"SQUARES\"", "unknown variant `SQUARES`"),
+        (
+            "\"byteOffset\":48",
+            "\"byteOffset\":4800000000",
+            "at most 64 times the bytes of the file, in all views, are expected",
+        ),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let error = load_bytes(Format::Gltf, text.replacen(from, to, 1).as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+}

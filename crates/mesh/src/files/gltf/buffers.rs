@@ -10,6 +10,7 @@ use gltf::Document;
 use gltf::buffer::{Buffer, Source};
 
 use super::fault::Fault;
+use super::meshopt;
 use crate::files::source::{ModelFolder, Reader};
 use crate::files::text::abridged;
 
@@ -19,35 +20,46 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// All buffers of the document, each of exactly the length that the document says.
+/// All buffers of the document, each of exactly the length that the document says, and how many bytes of them are in the
+/// file: others were unpacked.
 pub(super) fn resolve<'a>(
     document: &Document,
     mut binary: Option<&'a [u8]>,
     around: ModelFolder,
-) -> Result<Vec<Cow<'a, [u8]>>, Fault> {
-    document
-        .buffers()
-        .map(|buffer| {
-            let bytes = match buffer.source() {
-                Source::Bin => Cow::Borrowed(binary_chunk(&buffer, &mut binary)?),
-                Source::Uri(uri) => Cow::Owned(from_uri(&name(&buffer), uri, around)?),
-            };
-            if bytes.len() < buffer.length() {
-                return Err(Fault::element(
-                    name(&buffer),
-                    format!("byteLength {} for {} bytes of data", buffer.length(), bytes.len()),
-                    "at most as many as there are is",
-                ));
-            }
-            Ok(match bytes {
-                Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[..buffer.length()]),
-                Cow::Owned(mut bytes) => {
-                    bytes.truncate(buffer.length());
-                    Cow::Owned(bytes)
-                }
-            })
-        })
-        .collect()
+) -> Result<(Vec<Cow<'a, [u8]>>, usize), Fault> {
+    let (mut buffers, mut are_empty) = (Vec::new(), Vec::new());
+    for buffer in document.buffers() {
+        let bytes = match buffer.source() {
+            Source::Bin => binary_chunk(&buffer, &mut binary).map(Cow::Borrowed),
+            Source::Uri(uri) => from_uri(&name(&buffer), uri, around).map(Cow::Owned),
+        };
+        let is_empty = bytes.is_err()
+            && matches!(buffer.source(), Source::Bin)
+            && meshopt::is_unpacked_into(document.as_json(), buffer.index());
+        buffers.push(if is_empty { Cow::Borrowed(&[][..]) } else { whole(&buffer, bytes?)? });
+        are_empty.push(is_empty);
+    }
+    let bytes = buffers.iter().map(|buffer| buffer.len()).sum();
+    meshopt::unpack(document.as_json(), &mut buffers, &are_empty)?;
+    Ok((buffers, bytes))
+}
+
+/// The bytes of a buffer, as many as it says.
+fn whole<'a>(buffer: &Buffer, bytes: Cow<'a, [u8]>) -> Result<Cow<'a, [u8]>, Fault> {
+    if bytes.len() < buffer.length() {
+        return Err(Fault::element(
+            name(buffer),
+            format!("byteLength {} for {} bytes of data", buffer.length(), bytes.len()),
+            "at most as many as there are is",
+        ));
+    }
+    Ok(match bytes {
+        Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[..buffer.length()]),
+        Cow::Owned(mut bytes) => {
+            bytes.truncate(buffer.length());
+            Cow::Owned(bytes)
+        }
+    })
 }
 
 /// The bytes that a URI stands for; `name` is the element that has it.
