@@ -304,6 +304,24 @@ fn packed_square() -> String {
 }
 
 #[test]
+fn a_mesh_that_draco_packed_is_no_heap_of_zeros() {
+    let mut file = GltfFile::default();
+    file.zeros("VEC3", 3);
+    file.floats("VEC3", &TRIANGLE);
+    let draco = r#"}},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}]"#;
+    let packed = MESH.replace("}}]", &draco[1..]);
+    let error = file.load(&packed).unwrap_err().to_string();
+    let expected = "the extension KHR_draco_mesh_compression is required, which is not supported; `gltf-transform copy` writes the file without it";
+    assert!(error.ends_with(expected), "{error}");
+    // Beside it there may be the mesh as it is.
+    let both = packed
+        .replace("\"POSITION\":0}},\"ext", "\"POSITION\":1},\"ext")
+        .replace("{\"POSITION\":0},\"ext", "{\"POSITION\":1},\"ext");
+    let model = file.load(&format!("\"extensionsUsed\":[\"KHR_draco_mesh_compression\"],{both}")).unwrap();
+    assert_eq!(model.warnings, ["the extension KHR_draco_mesh_compression is skipped", SMOOTH]);
+}
+
+#[test]
 fn packed_views_are_unpacked() {
     let text = packed_square();
     for text in [text.clone(), text.replace("EXT_meshopt", "KHR_meshopt")] {

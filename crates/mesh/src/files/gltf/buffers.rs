@@ -20,13 +20,20 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// All buffers of the document, each of exactly the length that the document says, and how many bytes of them are in the
-/// file: others were unpacked.
+/// The data of a file.
+pub(super) struct Buffers<'a> {
+    /// Each of exactly the length that the document says.
+    pub(super) all: Vec<Cow<'a, [u8]>>,
+    /// How many bytes of them are in the file; others were unpacked.
+    pub(super) bytes_of_file: usize,
+}
+
+/// All buffers of the document.
 pub(super) fn resolve<'a>(
     document: &Document,
     mut binary: Option<&'a [u8]>,
     around: ModelFolder,
-) -> Result<(Vec<Cow<'a, [u8]>>, usize), Fault> {
+) -> Result<Buffers<'a>, Fault> {
     let (mut buffers, mut are_empty) = (Vec::new(), Vec::new());
     for buffer in document.buffers() {
         let bytes = match buffer.source() {
@@ -39,9 +46,9 @@ pub(super) fn resolve<'a>(
         buffers.push(if is_empty { Cow::Borrowed(&[][..]) } else { whole(&buffer, bytes?)? });
         are_empty.push(is_empty);
     }
-    let bytes = buffers.iter().map(|buffer| buffer.len()).sum();
+    let bytes_of_file = buffers.iter().map(|buffer| buffer.len()).sum();
     meshopt::unpack(document.as_json(), &mut buffers, &are_empty)?;
-    Ok((buffers, bytes))
+    Ok(Buffers { all: buffers, bytes_of_file })
 }
 
 /// The bytes of a buffer, as many as it says.

@@ -24,6 +24,7 @@ use gltf::{Document, Glb};
 
 use self::accessor::Accessors;
 use self::animations::Clips;
+use self::buffers::Buffers;
 use self::document::{Opened, open};
 use self::extensions::QUANTIZATION;
 use self::fault::Fault;
@@ -46,7 +47,7 @@ fn read(bytes: &[u8], is_binary: bool, around: ModelFolder) -> Result<Model, Fau
     let container = if is_binary || bytes.starts_with(b"glTF") { Some(open_container(bytes)?) } else { None };
     let Opened { document, beside, dropped_channels } = open(container.as_ref().map_or(bytes, |glb| &glb.json))?;
     let binary = container.as_ref().and_then(|glb| glb.bin.as_deref());
-    let (buffers, bytes_of_file) = buffers::resolve(&document, binary, around)?;
+    let Buffers { all: buffers, bytes_of_file } = buffers::resolve(&document, binary, around)?;
     let mut images = Images::new(document.as_json(), &buffers, around);
     let materials = material::materials(&document, &mut images)?;
     let Images { warnings: of_images, mut used, .. } = images;

@@ -14,7 +14,7 @@ pub(super) fn octahedral_8(bytes: &mut [u8]) {
 /// Unit vectors on an octahedron, of 16 bits a number.
 pub(super) fn octahedral_16(bytes: &mut [u8]) {
     for item in bytes.as_chunks_mut::<8>().0 {
-        let [x, y, one, _] = words(item).map(|word| f32::from(word as i16));
+        let [x, y, one, _] = words(*item).map(|word| f32::from(word as i16));
         for (to, from) in item.as_chunks_mut::<2>().0.iter_mut().zip(unit_vector(x, y, one)) {
             *to = ((from * 32767.0).round() as i16).to_le_bytes();
         }
@@ -34,7 +34,7 @@ fn unit_vector(x: f32, y: f32, one: f32) -> [f32; 3] {
 /// Unit quaternions without their largest number.
 pub(super) fn quaternion(bytes: &mut [u8]) {
     for item in bytes.as_chunks_mut::<8>().0 {
-        let input = words(item).map(|word| word as i16);
+        let input = words(*item).map(|word| word as i16);
         let one = f32::from(input[3] | 3);
         let [x, y, z] = [0, 1, 2].map(|i| f32::from(input[i]) / one * std::f32::consts::FRAC_1_SQRT_2);
         let w = (1.0 - x * x - y * y - z * z).max(0.0).sqrt();
@@ -68,7 +68,7 @@ pub(super) fn color_8(bytes: &mut [u8]) {
 /// Colors as luma, two differences and alpha, of 16 bits a number.
 pub(super) fn color_16(bytes: &mut [u8]) {
     for item in bytes.as_chunks_mut::<8>().0 {
-        let [luma, orange, green, alpha] = words(item);
+        let [luma, orange, green, alpha] = words(*item);
         let signed = |word: u16| i32::from(word as i16);
         let color = rgba(i32::from(luma), signed(orange), signed(green), u32::from(alpha), 65535.0);
         for (to, from) in item.as_chunks_mut::<2>().0.iter_mut().zip(color) {
@@ -86,6 +86,6 @@ fn rgba(luma: i32, orange: i32, green: i32, alpha: u32, most: f32) -> [f32; 4] {
     numbers.map(|number| (number as f32 * (most / scale as f32)).round())
 }
 
-fn words(item: &[u8; 8]) -> [u16; 4] {
+fn words(item: [u8; 8]) -> [u16; 4] {
     std::array::from_fn(|i| u16::from_le_bytes([item[2 * i], item[2 * i + 1]]))
 }
