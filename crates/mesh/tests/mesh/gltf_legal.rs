@@ -3,7 +3,8 @@
 use glam::{DVec3, Mat4, Vec3};
 use halfway_mesh::{Format, Model, SourceMap, SourceMaterial, load, load_bytes};
 
-use crate::common::{Folder, GltfFile, TRIANGLE_JSON, glb, triangle_data};
+use crate::common::gltf_file::GltfFile;
+use crate::common::{Folder, TRIANGLE_JSON, glb, triangle_data};
 
 const TRIANGLE: [f32; 9] = [0., 0., 0., 1., 0., 0., 0., 1., 0.];
 const SMOOTH: &str = "1 primitives have no normals; smooth ones are computed, where glTF asks for flat ones";
@@ -150,7 +151,7 @@ fn a_percent_sign_may_be_a_part_of_a_name() {
 
 #[test]
 fn data_uris_may_be_text() {
-    let data: String = triangle_data().iter().map(|byte| format!("%{byte:02X}")).collect();
+    let data = triangle_data().iter().map(|byte| format!("%{byte:02X}")).collect::<Vec<_>>().concat();
     for head in ["data:,", "data:application/octet-stream,", "data:text/plain;charset=utf-8,"] {
         let uri = format!("{{\"byteLength\":104,\"uri\":\"{head}{data}\"}}");
         let json = TRIANGLE_JSON.replace("{\"byteLength\":104}", &uri);
@@ -280,12 +281,9 @@ fn packed_square() -> String {
         "a00000013f000000ffffff013f0000007e7d7e0000010c000000ff010c0000007e000000000000000000000000000000000000000000000000000000000000000000000000",
         "e1f010007687566778a9866589689801690000",
     );
-    let data: String = [positions, indices]
-        .concat()
-        .as_bytes()
-        .chunks(2)
-        .map(|two| format!("%{}{}", char::from(two[0]), char::from(two[1])))
-        .collect();
+    let data = [positions, indices].concat();
+    let escapes = data.as_bytes().chunks(2).map(|two| format!("%{}{}", char::from(two[0]), char::from(two[1])));
+    let data = escapes.collect::<Vec<_>>().concat();
     let (first, second) = (positions.len() / 2, indices.len() / 2);
     let length = first + second;
     format!(

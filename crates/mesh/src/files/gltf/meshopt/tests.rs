@@ -17,7 +17,7 @@ fn packed(mode: Mode, filter: Filter, [count, byte_stride]: [usize; 2]) -> Packe
 /// Forty items of three numbers.
 fn items() -> Vec<u8> {
     let item = |i: u32| {
-        let third = if i % 7 == 0 { i.wrapping_mul(2_654_435_761) } else { 70_000 * i };
+        let third = if i.is_multiple_of(7) { i.wrapping_mul(2_654_435_761) } else { 70_000 * i };
         [i * i, 1000 + 3 * i + i % 5, third]
     };
     (0..40).flat_map(item).flat_map(u32::to_le_bytes).collect()
