@@ -145,7 +145,7 @@ pub struct LinePart {
 
 /// A material in the terms of its file.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "a model has few materials, each read once")]
+#[allow(clippy::large_enum_variant, reason = "a model has few materials, each read once")]
 pub enum SourceMaterial {
     /// From a Wavefront MTL file.
     Mtl(MtlMaterial),

@@ -281,6 +281,11 @@ impl<'a> Shapes<'a> {
         });
         let which = model.animations.as_ref().and_then(|animations| which_is_played(animations));
         self.warnings.extend(which.map(|sentence| format!("{file}: {sentence}")));
+        let moves_vertices = model.animations.as_ref().is_some_and(|animations| animations.moves_vertices());
+        if moves_vertices && (object.displacement.is_some() || object.scalars.is_some()) {
+            let because = "since they are displaced or show numbers";
+            self.warnings.push(format!("{file}: vertices keep the pose of the file, {because}"));
+        }
         let (lines, cameras, animations) = (lines.collect(), model.cameras, model.animations);
         Ok(ObjectShape { parts, lines, lights, cameras, animations, origin: model.origin })
     }

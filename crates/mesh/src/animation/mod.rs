@@ -189,6 +189,11 @@ impl Animations {
         &self.clips
     }
 
+    /// Whether skins or morph targets move vertices; otherwise whole parts move.
+    pub fn moves_vertices(&self) -> bool {
+        self.parts.iter().any(|part| part.shape.is_some())
+    }
+
     /// The pose in an animation, by its index in [`clips`](Self::clips), at a time in seconds. Before the first key frame it
     /// is that of the first; after the last one, the animation begins again from time 0. Without such an animation nothing
     /// moves. Anything whose numbers leave the range of f32 at that time is left out.

@@ -31,6 +31,9 @@ pub(crate) struct Influences {
     weights: Vec<f32>,
 }
 
+/// Four joints a vertex, and their weights.
+pub(crate) type JointSet = (Vec<[u16; 4]>, Vec<[f32; 4]>);
+
 /// Vertices that were moved.
 pub(crate) struct Moved {
     pub(crate) positions: Vec<DVec3>,
@@ -41,7 +44,7 @@ pub(crate) struct Moved {
 impl Influences {
     /// The influences of sets of four joints and weights a vertex. Weights are scaled to a sum of 1; a vertex without any
     /// follows its first joint.
-    pub(crate) fn new(sets: &[(Vec<[u16; 4]>, Vec<[f32; 4]>)]) -> Self {
+    pub(crate) fn new(sets: &[JointSet]) -> Self {
         let vertices = sets.iter().map(|(joints, _)| joints.len()).min().unwrap_or(0);
         let mut all = Self { per_vertex: 4 * sets.len(), ..Self::default() };
         for vertex in 0..vertices {
@@ -54,7 +57,9 @@ impl Influences {
             let weights = &mut all.weights[first..];
             let sum: f64 = weights.iter().map(|weight| f64::from(*weight)).sum();
             if sum > 0.0 {
-                weights.iter_mut().for_each(|weight| *weight = (f64::from(*weight) / sum) as f32);
+                for weight in weights {
+                    *weight = (f64::from(*weight) / sum) as f32;
+                }
             } else {
                 weights[0] = 1.0;
             }

@@ -32,7 +32,7 @@ use source::Source;
 /// |---|---|---|
 /// | `smf` | Garland's SMF | vertices, triangles, scopes, transforms, bound normals, colours and texture coordinates; a part for each group |
 /// | `obj` | Wavefront OBJ with its MTL files | polygons, lines, points, normals, texture coordinates, colours, smoothing groups, materials; a part for each name of an object or group and material |
-/// | `gltf`, `glb` | glTF 2.0 | the default scene: nodes, cameras, triangles, lines, points, normals, tangents, the first texture coordinates and colours, metallic-roughness factors, `KHR_lights_punctual`, `KHR_mesh_quantization`; a part for each primitive of each node |
+/// | `gltf`, `glb` | glTF 2.0 | the default scene: nodes, cameras, triangles, lines, points, normals, tangents, the first texture coordinates and colours, materials, skins, morph targets, animations, lights; a part for each primitive of each node |
 /// | `ply` | PLY | polygons, strips and edges, or points where there are none of them; normals, texture coordinates and colours of vertices; as one part |
 /// | `stl` | STL | triangles, with vertices at equal positions as one; a part for each solid |
 ///

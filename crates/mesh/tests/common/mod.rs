@@ -1,15 +1,13 @@
 //! Shared by the tests of files.
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
-mod gltf_file;
+pub(crate) mod gltf_file;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use halfway_mesh::{Animations, Model, Pose, PosedPart};
-
-pub(crate) use self::gltf_file::GltfFile;
 
 /// A folder of the test's own, removed at the end.
 pub(crate) struct Folder(PathBuf);

@@ -3,7 +3,8 @@
 use glam::{DVec3, Mat4, Vec3};
 use halfway_mesh::{Format, Model, SourceMap, SourceMaterial, load, load_bytes};
 
-use crate::common::{Folder, GltfFile, TRIANGLE_JSON, glb, triangle_data};
+use crate::common::gltf_file::GltfFile;
+use crate::common::{Folder, TRIANGLE_JSON, glb, triangle_data};
 
 const TRIANGLE: [f32; 9] = [0., 0., 0., 1., 0., 0., 0., 1., 0.];
 const SMOOTH: &str = "1 primitives have no normals; smooth ones are computed, where glTF asks for flat ones";
@@ -150,7 +151,7 @@ fn a_percent_sign_may_be_a_part_of_a_name() {
 
 #[test]
 fn data_uris_may_be_text() {
-    let data: String = triangle_data().iter().map(|byte| format!("%{byte:02X}")).collect();
+    let data = triangle_data().iter().map(|byte| format!("%{byte:02X}")).collect::<Vec<_>>().concat();
     for head in ["data:,", "data:application/octet-stream,", "data:text/plain;charset=utf-8,"] {
         let uri = format!("{{\"byteLength\":104,\"uri\":\"{head}{data}\"}}");
         let json = TRIANGLE_JSON.replace("{\"byteLength\":104}", &uri);
@@ -271,4 +272,98 @@ fn specular_glossiness_materials_are_read() {
         model.warnings,
         ["materials[0]: of the specular-glossiness texture only the color counts; the glossiness is the factor's"]
     );
+}
+
+/// A square of two triangles whose positions and indices are packed: two buffers, of which the second has no data.
+fn packed_square() -> String {
+    // By meshoptimizer's encoder.
+    let (positions, indices) = (
+        "a00000013f000000ffffff013f0000007e7d7e0000010c000000ff010c0000007e000000000000000000000000000000000000000000000000000000000000000000000000",
+        "e1f010007687566778a9866589689801690000",
+    );
+    let data = [positions, indices].concat();
+    let escapes = data.as_bytes().chunks(2).map(|two| format!("%{}{}", char::from(two[0]), char::from(two[1])));
+    let data = escapes.collect::<Vec<_>>().concat();
+    let (first, second) = (positions.len() / 2, indices.len() / 2);
+    let length = first + second;
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},"extensionsUsed":["EXT_meshopt_compression"],"extensionsRequired":["EXT_meshopt_compression"],
+        "nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":4,"min":[0,0,0],"max":[1,1,0]}},
+            {{"bufferView":1,"componentType":5123,"type":"SCALAR","count":6}}],
+        "bufferViews":[
+            {{"buffer":1,"byteLength":48,"byteStride":12,"extensions":{{"EXT_meshopt_compression":
+                {{"buffer":0,"byteLength":{first},"byteStride":12,"count":4,"mode":"ATTRIBUTES"}}}}}},
+            {{"buffer":1,"byteOffset":48,"byteLength":12,"extensions":{{"EXT_meshopt_compression":
+                {{"buffer":0,"byteOffset":{first},"byteLength":{second},"byteStride":2,"count":6,"mode":"TRIANGLES"}}}}}}],
+        "buffers":[{{"byteLength":{length},"uri":"data:,{data}"}},
+            {{"byteLength":60,"extensions":{{"EXT_meshopt_compression":{{"fallback":true}}}}}}]}}"#
+    )
+}
+
+#[test]
+fn a_mesh_that_draco_packed_is_no_heap_of_zeros() {
+    let mut file = GltfFile::default();
+    file.zeros("VEC3", 3);
+    file.floats("VEC3", &TRIANGLE);
+    let draco = r#"}},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}]"#;
+    let packed = MESH.replace("}}]", &draco[1..]);
+    let error = file.load(&packed).unwrap_err().to_string();
+    let expected = "the extension KHR_draco_mesh_compression is required, which is not supported; `gltf-transform copy` writes the file without it";
+    assert!(error.ends_with(expected), "{error}");
+    // Beside it there may be the mesh as it is.
+    let both = packed
+        .replace("\"POSITION\":0}},\"ext", "\"POSITION\":1},\"ext")
+        .replace("{\"POSITION\":0},\"ext", "{\"POSITION\":1},\"ext");
+    let model = file.load(&format!("\"extensionsUsed\":[\"KHR_draco_mesh_compression\"],{both}")).unwrap();
+    assert_eq!(model.warnings, ["the extension KHR_draco_mesh_compression is skipped", SMOOTH]);
+}
+
+#[test]
+fn packed_views_are_unpacked() {
+    let text = packed_square();
+    for text in [text.clone(), text.replace("EXT_meshopt", "KHR_meshopt")] {
+        let model = load_bytes(Format::Gltf, text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(model.warnings, [SMOOTH]);
+        let mesh = &model.parts[0].mesh;
+        assert_eq!(mesh.positions(), [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)]);
+        let mut triangles: Vec<[u32; 3]> = mesh.triangles().collect();
+        triangles.iter_mut().for_each(|corners| {
+            let least = (0..3).min_by_key(|k| corners[*k]).unwrap();
+            corners.rotate_left(least);
+        });
+        assert_eq!(triangles, [[0, 1, 2], [1, 3, 2]]);
+    }
+    for (from, to, expected) in [
+        (
+            "\"count\":4,\"mode\"",
+            "\"count\":9,\"mode\"",
+            "bufferViews[0].extensions.EXT_meshopt_compression: count 9; at least one item, and no more than the view holds, is expected",
+        ),
+        (
+            "\"byteStride\":2,",
+            "\"byteStride\":3,",
+            "bufferViews[1].extensions.EXT_meshopt_compression: byteStride 3; 2 or 4 is expected",
+        ),
+        (
+            "\"buffer\":0,\"byteOffset\"",
+            "\"buffer\":1,\"byteOffset\"",
+            "bytes that are not there; a part of a buffer with data is expected",
+        ),
+        (
+            "\"count\":6,\"mode\"",
+            "\"count\":3,\"mode\"",
+            "bufferViews[1].extensions.EXT_meshopt_compression: packed data that do not make 3 items; a whole stream is expected",
+        ),
+        ("\"TRIANGLES\"", "\"SQUARES\"", "unknown variant `SQUARES`"),
+        (
+            "\"byteOffset\":48",
+            "\"byteOffset\":4800000000",
+            "at most 64 times the bytes of the file, in all views, are expected",
+        ),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let error = load_bytes(Format::Gltf, text.replacen(from, to, 1).as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
 }

@@ -47,16 +47,14 @@ pub fn from_metallic_roughness(source: &MetallicRoughness) -> Result<Material, I
     let base = [red, green, blue];
     let metallic = if source.unlit { 0.0 } else { source.metallic };
     let shininess = shininess_from_roughness(source.roughness);
-    let (diffuse, f0, ambient) = match source.specular_glossiness.as_ref().filter(|_| !source.unlit) {
-        Some(SpecularGlossiness { specular: f0, .. }) => {
-            let left = 1.0 - f0[0].max(f0[1]).max(f0[2]);
-            let diffuse = base.map(|c| c * left);
-            (diffuse, *f0, std::array::from_fn(|i| diffuse[i].max(f0[i])))
-        }
-        None => {
-            let f0 = base.map(|c| DIELECTRIC_REFLECTANCE + (c - DIELECTRIC_REFLECTANCE) * metallic);
-            (base.map(|c| c * (1.0 - metallic)), f0, base)
-        }
+    let given = source.specular_glossiness.as_ref().filter(|_| !source.unlit);
+    let (diffuse, f0, ambient) = if let Some(SpecularGlossiness { specular: f0, .. }) = given {
+        let left = 1.0 - f0[0].max(f0[1]).max(f0[2]);
+        let diffuse = base.map(|c| c * left);
+        (diffuse, *f0, std::array::from_fn(|i| diffuse[i].max(f0[i])))
+    } else {
+        let f0 = base.map(|c| DIELECTRIC_REFLECTANCE + (c - DIELECTRIC_REFLECTANCE) * metallic);
+        (base.map(|c| c * (1.0 - metallic)), f0, base)
     };
     let largest = f0[0].max(f0[1]).max(f0[2]);
     // A black metal reflects nothing: its peak is 0 whatever the factor.

@@ -22,8 +22,8 @@ fn moving() -> String {
     let (times, places) = ([0.0, 4.0], [0.0, 0.0, 0.0, 8.0, 0.0, 0.0]);
     let (weights, still) = ([0.0, 4.0], [0.0; 6]);
     let lists = [&positions[..], &target, &times, &places, &weights, &still];
-    let data: String =
-        lists.iter().flat_map(|list| *list).flat_map(|x: &f32| x.to_le_bytes()).map(|b| format!("%{b:02x}")).collect();
+    let bytes = lists.iter().flat_map(|list| *list).flat_map(|x: &f32| x.to_le_bytes());
+    let data = bytes.map(|byte| format!("%{byte:02x}")).collect::<Vec<_>>().concat();
     let (mut offset, mut accessors) = (0, Vec::new());
     for (list, shape, width) in lists
         .iter()

@@ -13,7 +13,7 @@ use super::fault::Fault;
 
 /// The most bytes of mesh data that one byte of the file may become. Honest files stay far below: a vertex of a few
 /// bytes becomes one of 64 at most, and an index of one byte, in a strip, three of four bytes.
-const EXPANSION: usize = 64;
+pub(super) const EXPANSION: usize = 64;
 
 /// The types that an attribute may have.
 pub(super) struct Attribute {
@@ -150,8 +150,8 @@ impl Items<'_> {
 }
 
 impl<'a> Accessors<'a> {
-    pub(super) fn new(buffers: &'a [Cow<'a, [u8]>], quantized: bool) -> Self {
-        let bytes = buffers.iter().map(|buffer| buffer.len()).sum::<usize>();
+    /// `bytes` of the buffers are in the file; others were unpacked.
+    pub(super) fn new(buffers: &'a [Cow<'a, [u8]>], bytes: usize, quantized: bool) -> Self {
         Self { buffers, bytes, budget: bytes.saturating_mul(EXPANSION), quantized, dense: HashMap::new() }
     }
 

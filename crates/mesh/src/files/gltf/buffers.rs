@@ -10,6 +10,7 @@ use gltf::Document;
 use gltf::buffer::{Buffer, Source};
 
 use super::fault::Fault;
+use super::meshopt;
 use crate::files::source::{ModelFolder, Reader};
 use crate::files::text::abridged;
 
@@ -19,35 +20,53 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// All buffers of the document, each of exactly the length that the document says.
+/// The data of a file.
+pub(super) struct Buffers<'a> {
+    /// Each of exactly the length that the document says.
+    pub(super) all: Vec<Cow<'a, [u8]>>,
+    /// How many bytes of them are in the file; others were unpacked.
+    pub(super) bytes_of_file: usize,
+}
+
+/// All buffers of the document.
 pub(super) fn resolve<'a>(
     document: &Document,
     mut binary: Option<&'a [u8]>,
     around: ModelFolder,
-) -> Result<Vec<Cow<'a, [u8]>>, Fault> {
-    document
-        .buffers()
-        .map(|buffer| {
-            let bytes = match buffer.source() {
-                Source::Bin => Cow::Borrowed(binary_chunk(&buffer, &mut binary)?),
-                Source::Uri(uri) => Cow::Owned(from_uri(&name(&buffer), uri, around)?),
-            };
-            if bytes.len() < buffer.length() {
-                return Err(Fault::element(
-                    name(&buffer),
-                    format!("byteLength {} for {} bytes of data", buffer.length(), bytes.len()),
-                    "at most as many as there are is",
-                ));
-            }
-            Ok(match bytes {
-                Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[..buffer.length()]),
-                Cow::Owned(mut bytes) => {
-                    bytes.truncate(buffer.length());
-                    Cow::Owned(bytes)
-                }
-            })
-        })
-        .collect()
+) -> Result<Buffers<'a>, Fault> {
+    let (mut buffers, mut are_empty) = (Vec::new(), Vec::new());
+    for buffer in document.buffers() {
+        let bytes = match buffer.source() {
+            Source::Bin => binary_chunk(&buffer, &mut binary).map(Cow::Borrowed),
+            Source::Uri(uri) => from_uri(&name(&buffer), uri, around).map(Cow::Owned),
+        };
+        let is_empty = bytes.is_err()
+            && matches!(buffer.source(), Source::Bin)
+            && meshopt::is_unpacked_into(document.as_json(), buffer.index());
+        buffers.push(if is_empty { Cow::Borrowed(&[][..]) } else { whole(&buffer, bytes?)? });
+        are_empty.push(is_empty);
+    }
+    let bytes_of_file = buffers.iter().map(|buffer| buffer.len()).sum();
+    meshopt::unpack(document.as_json(), &mut buffers, &are_empty)?;
+    Ok(Buffers { all: buffers, bytes_of_file })
+}
+
+/// The bytes of a buffer, as many as it says.
+fn whole<'a>(buffer: &Buffer, bytes: Cow<'a, [u8]>) -> Result<Cow<'a, [u8]>, Fault> {
+    if bytes.len() < buffer.length() {
+        return Err(Fault::element(
+            name(buffer),
+            format!("byteLength {} for {} bytes of data", buffer.length(), bytes.len()),
+            "at most as many as there are is",
+        ));
+    }
+    Ok(match bytes {
+        Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[..buffer.length()]),
+        Cow::Owned(mut bytes) => {
+            bytes.truncate(buffer.length());
+            Cow::Owned(bytes)
+        }
+    })
 }
 
 /// The bytes that a URI stands for; `name` is the element that has it.

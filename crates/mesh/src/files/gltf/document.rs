@@ -52,6 +52,7 @@ struct MeshTargets {
 #[derive(Deserialize)]
 struct PrimitiveTargets {
     #[serde(default)]
+    #[expect(clippy::zero_sized_map_values, reason = "the values are there, and of no account")]
     targets: Vec<BTreeMap<String, IgnoredAny>>,
 }
 

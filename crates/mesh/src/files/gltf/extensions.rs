@@ -4,6 +4,7 @@ use gltf::Document;
 use gltf::json::extensions::ENABLED_EXTENSIONS;
 
 use super::fault::Fault;
+use super::meshopt;
 
 /// Integers in attributes.
 pub(super) const QUANTIZATION: &str = "KHR_mesh_quantization";
@@ -44,6 +45,7 @@ const LESS: [&str; 16] = [
 pub(super) fn is_read(extension: &str) -> bool {
     extension != BASISU && ENABLED_EXTENSIONS.contains(&extension) && !extension.starts_with("MSFT_")
         || READ.contains(&extension)
+        || meshopt::NAMES.contains(&extension)
 }
 
 /// Checks that the file can be shown without the extensions that are not read.
@@ -68,7 +70,6 @@ pub(super) fn warnings(document: &Document) -> impl Iterator<Item = String> {
 pub(super) fn remedy(extension: &str) -> &'static str {
     match extension {
         DRACO => "; `gltf-transform copy` writes the file without it",
-        "EXT_meshopt_compression" | "KHR_meshopt_compression" => "; `gltf-transform copy` writes the file without it",
         _ => "",
     }
 }

@@ -53,7 +53,7 @@ impl TexturePlace {
 
 /// Reads each image once, when a material first refers to it; an unreadable image is a warning.
 pub(super) struct Images<'a> {
-    images: &'a [Image],
+    list: &'a [Image],
     views: &'a [View],
     buffers: &'a [Cow<'a, [u8]>],
     around: ModelFolder<'a>,
@@ -65,8 +65,8 @@ pub(super) struct Images<'a> {
 
 impl<'a> Images<'a> {
     pub(super) fn new(json: &'a Root, buffers: &'a [Cow<'a, [u8]>], around: ModelFolder<'a>) -> Self {
-        let (images, views) = (&json.images, &json.buffer_views);
-        Self { images, views, buffers, around, read: HashMap::new(), warnings: Vec::new(), used: Vec::new() }
+        let (list, views) = (&json.images, &json.buffer_views);
+        Self { list, views, buffers, around, read: HashMap::new(), warnings: Vec::new(), used: Vec::new() }
     }
 
     /// Warns of a texture of a material that is not read, and of the consequence.
@@ -97,7 +97,7 @@ impl<'a> Images<'a> {
                 return None;
             }
         };
-        let name = match &self.images[image].uri {
+        let name = match &self.list[image].uri {
             Some(uri) if !uri.starts_with("data:") => uri.clone(),
             _ => format!("images[{image}]"),
         };
@@ -142,7 +142,7 @@ impl<'a> Images<'a> {
         };
         let (own, basis) = (texture.source().map(|image| image.index()), of_extension(BASISU));
         if let Some(image) = of_extension(WEBP) {
-            return if image < self.images.len() { Ok(image) } else { own.ok_or_else(|| NO_SUCH.to_owned()) };
+            return if image < self.list.len() { Ok(image) } else { own.ok_or_else(|| NO_SUCH.to_owned()) };
         }
         let index = texture.index();
         match (own, basis) {
@@ -160,7 +160,7 @@ impl<'a> Images<'a> {
     }
 
     fn bytes(&mut self, name: &str, index: usize) -> Arc<[u8]> {
-        let image = &self.images[index];
+        let image = &self.list[index];
         let read = match (&image.uri, image.buffer_view) {
             (_, Some(view)) => {
                 let view = &self.views[view.value()];

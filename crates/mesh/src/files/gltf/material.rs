@@ -58,16 +58,12 @@ fn specular_glossiness(index: usize, found: &PbrSpecularGlossiness, images: &mut
 }
 
 fn maps(index: usize, material: &gltf::Material, images: &mut Images) -> GltfMaps {
-    let (base, emission) = match material.pbr_specular_glossiness() {
-        Some(specular) => (specular.diffuse_texture(), material.emissive_texture()),
-        None => {
-            let pbr = material.pbr_metallic_roughness();
-            if let Some(info) = pbr.metallic_roughness_texture() {
-                images.skip((index, "metallic-roughness"), &info.texture(), "the factors alone count");
-            }
-            (pbr.base_color_texture(), material.emissive_texture())
-        }
-    };
+    let (specular, emission) = (material.pbr_specular_glossiness(), material.emissive_texture());
+    let pbr = material.pbr_metallic_roughness();
+    if let Some(info) = pbr.metallic_roughness_texture().filter(|_| specular.is_none()) {
+        images.skip((index, "metallic-roughness"), &info.texture(), "the factors alone count");
+    }
+    let base = specular.map_or_else(|| pbr.base_color_texture(), |specular| specular.diffuse_texture());
     let mut map = |field, texture: gltf::Texture, lookup: Lookup| images.map((index, field), &texture, &lookup);
     let mut found = GltfMaps::default();
     if let Some(info) = base {

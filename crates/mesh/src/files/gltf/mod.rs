@@ -11,6 +11,7 @@ mod extensions;
 mod fault;
 mod images;
 mod material;
+mod meshopt;
 mod nodes;
 mod placed;
 mod primitive;
@@ -23,6 +24,7 @@ use gltf::{Document, Glb};
 
 use self::accessor::Accessors;
 use self::animations::Clips;
+use self::buffers::Buffers;
 use self::document::{Opened, open};
 use self::extensions::QUANTIZATION;
 use self::fault::Fault;
@@ -45,7 +47,7 @@ fn read(bytes: &[u8], is_binary: bool, around: ModelFolder) -> Result<Model, Fau
     let container = if is_binary || bytes.starts_with(b"glTF") { Some(open_container(bytes)?) } else { None };
     let Opened { document, beside, dropped_channels } = open(container.as_ref().map_or(bytes, |glb| &glb.json))?;
     let binary = container.as_ref().and_then(|glb| glb.bin.as_deref());
-    let buffers = buffers::resolve(&document, binary, around)?;
+    let Buffers { all: buffers, bytes_of_file } = buffers::resolve(&document, binary, around)?;
     let mut images = Images::new(document.as_json(), &buffers, around);
     let materials = material::materials(&document, &mut images)?;
     let Images { warnings: of_images, mut used, .. } = images;
@@ -55,7 +57,7 @@ fn read(bytes: &[u8], is_binary: bool, around: ModelFolder) -> Result<Model, Fau
     warn_of_skipped(&document, used.len(), &mut warnings);
     warnings.extend(of_images);
     let is_quantized = document.extensions_used().any(|extension| extension == QUANTIZATION);
-    let mut primitives = Primitives::new(Accessors::new(&buffers, is_quantized));
+    let mut primitives = Primitives::new(Accessors::new(&buffers, bytes_of_file, is_quantized));
     let with_more_targets = beside.with_more_targets();
     let mut nodes = Nodes::new(&document, beside.nodes);
     let contents = scene::read(&document, &mut nodes, &mut primitives)?;

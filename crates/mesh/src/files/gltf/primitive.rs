@@ -9,6 +9,7 @@ use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
 
 use super::accessor::{self, Accessors, Attribute, Items, Which};
+use super::extensions::DRACO;
 use super::fault::Fault;
 use crate::animation::{Influences, MorphTarget, Moved, Shape};
 use crate::numbering::Numbering;
@@ -107,6 +108,10 @@ impl<'a> Primitives<'a> {
             self.shapes.insert(key, PrimitiveShape::Nothing);
             return Ok(PrimitiveShape::Nothing);
         };
+        let is_packed = primitive.extension_value(DRACO).is_some();
+        if is_packed && positions.view().is_none() && positions.sparse().is_none() {
+            return Err(Fault::RequiredExtension(DRACO.to_owned()));
+        }
         self.without_bounds += usize::from(positions.min().is_none() || positions.max().is_none());
         let made = match primitive.mode() {
             Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {
