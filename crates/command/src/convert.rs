@@ -14,7 +14,7 @@ use crate::steps::Meshes;
 
 #[derive(Args, Debug)]
 pub(crate) struct ConvertArgs {
-    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl); - reads one from standard input, of --format
+    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl, .off, .3mf); - reads one from standard input, of --format
     input: PathBuf,
     /// The file to write (.smf, .obj, .glb); .obj brings an .mtl of the same name where there are materials; - writes to
     /// standard output, of --format (of both, the second: --format stl,glb)
