@@ -24,7 +24,7 @@ use crate::Model;
 pub use error::LoadError;
 pub use format::Format;
 pub use source::{LoadOptions, LoadProgress, MOST_PIPED};
-pub use write::{WriteError, write, write_quantised};
+pub use write::{WriteError, write, write_ascii, write_quantised};
 
 use source::Source;
 
