@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use halfway::mesh::{LoadError, Model, Normals, Subdivision, Weld, load_with, write, write_quantised};
+use halfway::mesh::{LoadError, Model, Normals, Subdivision, Weld, load_with, write, write_ascii, write_quantised};
 use halfway::scene::options::parse;
 
 use crate::failure::{Failure, STOPPED};
@@ -14,10 +14,11 @@ use crate::steps::Meshes;
 
 #[derive(Args, Debug)]
 pub(crate) struct ConvertArgs {
-    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl); - reads one from standard input, of --format
+    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl, .off, .3mf); - reads one from standard input, of --format
     input: PathBuf,
-    /// The file to write (.smf, .obj, .glb); .obj brings an .mtl of the same name where there are materials; - writes to
-    /// standard output, of --format (of both, the second: --format stl,glb)
+    /// The file to write (.smf, .obj, .glb, .gltf, .ply, .stl); .obj brings an .mtl of the same name where there are
+    /// materials, .gltf a .bin, and both the images; - writes to standard output, of --format (of both, the second:
+    /// --format stl,glb)
     output: PathBuf,
     #[command(flatten)]
     reading: ReadingArgs,
@@ -44,6 +45,9 @@ pub(crate) struct ConvertArgs {
     /// Write vertices as integers of 16 bits, which makes large meshes about 40 % smaller; .glb only
     #[arg(long)]
     quantise: bool,
+    /// Write in ASCII; .ply only, which is binary without it
+    #[arg(long, conflicts_with = "quantise")]
+    ascii: bool,
 }
 
 pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
@@ -74,7 +78,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
         (None, _) => args.output.clone(),
         (Some(folder), Some(format)) => folder.0.join("model").with_extension(format.extension()),
         (Some(_), None) => {
-            return Err("standard output: the format is not known; expected --format smf, obj or glb"
+            return Err("standard output: the format is not known; expected --format smf, obj, glb, ply or stl"
                 .to_owned()
                 .into());
         }
@@ -83,6 +87,8 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
         let (moved, lost) = write_quantised(&output, &model)?;
         say(format!("quantise   positions moved by at most {moved:.3e}"));
         lost
+    } else if args.ascii {
+        write_ascii(&output, &model)?
     } else {
         write(&output, &model)?
     };
@@ -92,6 +98,9 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
         std::io::stdout().lock().write_all(&bytes).map_err(failed)?;
         if output.with_extension("mtl").exists() {
             lost.push("materials: their file has no place beside standard output".to_owned());
+        }
+        if output.with_extension("bin").exists() {
+            return Err("standard output: .gltf has files beside it; expected --format glb".to_owned().into());
         }
     }
     for lost in &lost {

@@ -14,7 +14,7 @@ use crate::reading::ReadingArgs;
 
 #[derive(Args, Debug)]
 pub(crate) struct InfoArgs {
-    /// Models (.smf, .obj, .gltf, .glb, .ply, .stl); - reads one from standard input, of --format
+    /// Models (.smf, .obj, .gltf, .glb, .ply, .stl, .off, .3mf); - reads one from standard input, of --format
     #[arg(value_name = "MODEL", required = true)]
     models: Vec<PathBuf>,
     #[command(flatten)]

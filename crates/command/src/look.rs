@@ -23,6 +23,9 @@ pub(crate) struct LookArgs {
     /// and without any creases made parts [default: the scene's; auto for a model]
     #[arg(long, value_name = "auto|keep|smooth|flat|creased=DEG", value_parser = parse::normals)]
     normals: Option<Normals>,
+    /// Show a checker where an image of a model is missing or broken; else its material is shown without the image
+    #[arg(long)]
+    mark_missing_images: bool,
     /// The background: transparent, #rrggbb (#rrggbbaa with an opacity), a CSS name, or two from above to below, as
     /// white..lightsteelblue [default: the scene's; charcoal for a model]
     #[arg(long, value_name = "COLOR[..COLOR]|transparent", value_parser = parse::background)]
@@ -35,9 +38,10 @@ pub(crate) struct LookArgs {
 impl LookArgs {
     /// Sets the options that are given.
     pub(crate) fn put_into(&self, options: &mut SceneOptions) {
-        let Self { color, faces, normals, background, lights } = *self;
+        let Self { color, faces, normals, mark_missing_images, background, lights } = *self;
         (options.color, options.faces, options.normals) = (color, faces, normals);
         (options.background, options.lights) = (background, lights);
+        options.mark_missing_images = mark_missing_images.then_some(true);
     }
 }
 

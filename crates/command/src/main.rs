@@ -56,7 +56,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Draw a scene file (.json) or models (.smf, .obj, .gltf, .glb, .ply, .stl) into a picture
+    /// Draw a scene file (.json) or models (.smf, .obj, .gltf, .glb, .ply, .stl, .off, .3mf) into a picture
     Render(render::RenderArgs),
     /// Draw a small picture of a model for a file manager, on the CPU, within limits of time and memory
     Thumbnail(thumbnail::ThumbnailArgs),

@@ -9,15 +9,14 @@ use halfway::mesh::{Format, LoadOptions, Model, load_stream, load_with};
 
 use crate::failure::Failure;
 
-const EXPECTED: &str =
-    "neither a scene that is known by a name nor a file that ends in .json, .smf, .obj, .gltf, .glb, .ply or .stl";
+const EXPECTED: &str = "neither a scene that is known by a name nor a file that ends in .json, .smf, .obj, .gltf, .glb, .ply, .stl, .off or .3mf";
 /// The name of standard input and standard output.
 pub(crate) const STANDARD: &str = "-";
 
 /// A scene file or models.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct InputArgs {
-    /// A scene file (.json), or models (.smf, .obj, .gltf, .glb, .ply, .stl): all in one picture, each at its own
+    /// A scene file (.json), or models (.smf, .obj, .gltf, .glb, .ply, .stl, .off, .3mf): all in one picture, each at its own
     /// coordinates; - reads a model from standard input, of --format
     #[arg(value_name = "SCENE|MODELS", required = true)]
     pub(crate) inputs: Vec<PathBuf>,
@@ -106,13 +105,16 @@ impl ReadingArgs {
         let options = self.options(self.model_formats().first().copied());
         let model = if file == Path::new(STANDARD) {
             let Some(format) = options.format else {
-                return Err("standard input: the format is not known; expected --format smf, obj, glb, ply or stl"
-                    .to_owned()
-                    .into());
+                return Err(
+                    "standard input: the format is not known; expected --format smf, obj, glb, ply, stl, off or 3mf"
+                        .to_owned()
+                        .into(),
+                );
             };
             load_stream(format, Path::new("standard input"), std::io::stdin().lock(), options)
         } else if options.format.is_none() && Format::from_path(file).is_none() {
-            return Err(format!("{}: {EXPECTED}", file.display()).into());
+            let way = Format::converter(file).map_or_else(String::new, |way| format!(" ({way})"));
+            return Err(format!("{}: {EXPECTED}{way}", file.display()).into());
         } else {
             load_with(file, options, &mut |_| ControlFlow::Continue(()))
         };

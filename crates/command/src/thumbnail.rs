@@ -15,7 +15,7 @@ use crate::reading::STANDARD;
 
 #[derive(Args, Debug)]
 pub(crate) struct ThumbnailArgs {
-    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl)
+    /// A model (.smf, .obj, .gltf, .glb, .ply, .stl, .off, .3mf)
     model: PathBuf,
     /// The picture, a PNG whatever its name ends in; - writes to standard output
     #[arg(short, long, value_name = "FILE")]

@@ -42,7 +42,7 @@ pub use component::{Lines3d, Mesh3d, MeshPlugin, SpawnOrder};
 #[cfg(feature = "formats")]
 pub use files::{
     Format, LoadError, LoadOptions, LoadProgress, MOST_PIPED, WriteError, load, load_bytes, load_stream, load_with,
-    write, write_quantised,
+    write, write_ascii, write_quantised,
 };
 pub use lines::Lines;
 pub use mesh::{Mesh, MeshError};

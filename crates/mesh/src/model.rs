@@ -174,8 +174,8 @@ impl SourceMaterial {
     }
 }
 
-/// A material of a Wavefront MTL file: the statements as they stand, finite but not limited to their usual ranges.
-/// `None` where the file has no such statement.
+/// A material of a Wavefront MTL file: the statements as they stand, not limited to their usual ranges, but finite and
+/// not negative. `None` where the file has no such statement.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MtlMaterial {
     /// `newmtl`.
@@ -196,6 +196,10 @@ pub struct MtlMaterial {
     pub tr: Option<f32>,
     /// `illum`, the number of the illumination model.
     pub illum: Option<u8>,
+    /// `Pr`, roughness as in glTF, from 0 to 1: an extension for physically based materials.
+    pub pr: Option<f32>,
+    /// `Pm`, metallic as in glTF, from 0 to 1: of the same extension.
+    pub pm: Option<f32>,
     /// The images.
     pub maps: MtlMaps,
 }

@@ -17,7 +17,7 @@ use crate::surface::{LENGTH, SURFACES, SurfaceEntry};
 /// The shape of an object: an object with exactly one of these keys.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeshEntry {
-    /// A model file, relative to the scene file: smf, obj, gltf, glb, ply or stl.
+    /// A model file, relative to the scene file: smf, obj, gltf, glb, ply, stl, off or 3mf.
     Path(PathBuf),
     /// A sphere about the origin.
     UvSphere(UvSphere),
@@ -63,7 +63,8 @@ pub struct LoadedModel {
     pub material: Material,
 }
 
-const PATH: Key = Key::required("path", "A model file, relative to the scene file: smf, obj, gltf, glb, ply or stl.");
+const PATH: Key =
+    Key::required("path", "A model file, relative to the scene file: smf, obj, gltf, glb, ply, stl, off or 3mf.");
 const UV_SPHERE: Key = Key::required("uv_sphere", "A sphere about the origin.");
 const PLANE: Key = Key::required("plane", "A square in the xz plane about the origin, facing +Y.");
 const BOX: Key = Key::required("box", "A box about the origin.");
@@ -121,7 +122,8 @@ impl Object for MeshEntry {
     fn check_whole(&self) -> Check {
         match self {
             Self::Path(path) if Format::from_path(path).is_none() => {
-                Err(KeyProblem::new("path", format!("is {}; {KNOWN_MODELS}", path.display())))
+                let way = Format::converter(path).map_or_else(String::new, |way| format!(" ({way})"));
+                Err(KeyProblem::new("path", format!("is {}; {KNOWN_MODELS}{way}", path.display())))
             }
             Self::Surface(surface) => surface.check(),
             _ => Ok(()),
@@ -129,7 +131,7 @@ impl Object for MeshEntry {
     }
 }
 
-const KNOWN_MODELS: &str = "expected a file that ends in .smf, .obj, .gltf, .glb, .ply or .stl";
+const KNOWN_MODELS: &str = "expected a file that ends in .smf, .obj, .gltf, .glb, .ply, .stl, .off or .3mf";
 
 keys! {
     /// The value of `{"uv_sphere": …}`.

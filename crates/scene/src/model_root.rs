@@ -44,7 +44,7 @@ use crate::spawn::{Handles, TextureHandles, has_mesh_assets, spawn_own_lights, s
 pub struct ModelRoot(pub PathBuf);
 
 impl ModelRoot {
-    /// The model of a file: SMF, OBJ, glTF, PLY or STL.
+    /// The model of a file: SMF, OBJ, glTF, PLY, STL, OFF or 3MF.
     pub fn new(file: impl Into<PathBuf>) -> Self {
         Self(file.into())
     }

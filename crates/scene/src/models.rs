@@ -231,10 +231,10 @@ impl<'a> Shapes<'a> {
             self.unused_cameras
                 .push(format!("{file}: {} cameras are not used; a scene has its own", model.cameras.len()));
         }
-        let maps = self.all_maps(&model, &file.to_string());
-        let materials = model.materials.iter().map(|material| {
+        let maps = self.all_maps(&model, &file.to_string(), object.mark_missing_images);
+        let materials = model.materials.iter().zip(&maps).map(|(material, maps)| {
             let at = format!("{file}: material {:?}", material.name());
-            self.material(material, at, index)
+            self.material(&with_images_shown(material, maps), at, index)
         });
         let materials = materials.collect::<Result<Vec<_>, _>>()?;
         let lights = model.lights.iter().map(|light| {
@@ -300,8 +300,8 @@ impl<'a> Shapes<'a> {
         }
     }
 
-    /// The images of each material.
-    fn all_maps(&mut self, model: &Model, file: &str) -> Vec<Vec<ModelMap>> {
+    /// The images of each material; `mark` says whether a checker takes the place of one that is missing or broken.
+    fn all_maps(&mut self, model: &Model, file: &str, mark: bool) -> Vec<Vec<ModelMap>> {
         let mut images = HashMap::new();
         let mut of = |source: &SourceMaterial| {
             let maps = maps(source);
@@ -317,23 +317,24 @@ impl<'a> Shapes<'a> {
             if has(MapKind::Normal) && has(MapKind::Height) {
                 warn("of its normal map and its bump map only the normal map is shown");
             }
-            maps.into_iter().filter_map(|(kind, map)| self.map(kind, map, file, &mut images)).collect()
+            maps.into_iter().filter_map(|(kind, map)| self.map(kind, map, file, mark, &mut images)).collect()
         };
         model.materials.iter().map(&mut of).collect()
     }
 
-    /// A material's image, each decoded once; a checker in its place where it is broken or missing.
+    /// A material's image, each decoded once. One that is broken or missing is a checker, or left out.
     fn map(
         &mut self,
         kind: MapKind,
         source: &SourceMap,
         file: &str,
-        images: &mut HashMap<(*const u8, TexelMeaning), Texture>,
+        mark: bool,
+        images: &mut HashMap<(*const u8, TexelMeaning), Option<Texture>>,
     ) -> Option<ModelMap> {
         let texture = images.entry((source.bytes.as_ptr(), kind.meaning())).or_insert_with(|| {
             // Of an image that could not be read the model has warned.
             if source.bytes.is_empty() {
-                return Texture::missing();
+                return mark.then(Texture::missing);
             }
             let decoded = halfway_texture::decode(&source.bytes, &source.name, kind.meaning());
             if let Some(what) = decoded.as_ref().ok().and_then(TexelImage::reduction) {
@@ -341,12 +342,14 @@ impl<'a> Shapes<'a> {
             }
             decoded.map_or_else(
                 |error| {
-                    self.warnings.push(format!("{file}: {error}; a checker is shown"));
-                    Texture::missing()
+                    let shown = if mark { "a checker is shown" } else { "the material is shown without it" };
+                    self.warnings.push(format!("{file}: {error}; {shown}"));
+                    mark.then(Texture::missing)
                 },
-                Texture::from,
+                |image| Some(Texture::from(image)),
             )
         });
+        let texture = texture.as_ref()?;
         let transform = transform(source);
         if transform.wrong().is_some() {
             self.warnings.push(format!("{file}: {} is skipped, since it lies at no finite place", source.name));
@@ -376,6 +379,22 @@ impl<'a> Shapes<'a> {
             }
         }
     }
+}
+
+/// The material without those images that are not shown, which an MTL material takes for white.
+fn with_images_shown(source: &SourceMaterial, shown: &[ModelMap]) -> SourceMaterial {
+    let mut source = source.clone();
+    if let SourceMaterial::Mtl(mtl) = &mut source {
+        let is_shown = |kind| shown.iter().any(|map| map.kind == kind);
+        for (kind, map) in [
+            (MapKind::Specular, &mut mtl.maps.ks),
+            (MapKind::Emission, &mut mtl.maps.ke),
+            (MapKind::Opacity, &mut mtl.maps.d),
+        ] {
+            map.take_if(|_| !is_shown(kind));
+        }
+    }
+    source
 }
 
 impl ShapePart {

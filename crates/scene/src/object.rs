@@ -52,6 +52,9 @@ keys! {
         /// Numbers on the mesh, as colours: they multiply those of `material`, and take the place of the colors, the
         /// material and the images of the model's own; null: none.
         scalars: Option<ScalarsEntry> = None,
+        /// Whether a checker of magenta and black is shown where an image of the model's own is missing or broken; else
+        /// its material is, without the image.
+        mark_missing_images: bool = false,
         /// Lines along the edges of the mesh; null: the scene's.
         edges: Option<EdgesEntry> = None,
         /// The numbers of the layers that it belongs to, each 0 to 31: a camera sees the objects and lights that share a

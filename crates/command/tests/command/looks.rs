@@ -328,8 +328,11 @@ fn convert_reads_and_writes_pipes() {
     assert!(output.status.success() && folder.join("from_pipe.glb").exists());
     for (arguments, expected) in [
         (&["convert", "-", "no.glb"][..], "standard input: the format is not known"),
-        (&["convert", "step.obj", "-"], "standard output: the format is not known; expected --format smf, obj or glb"),
-        (&["convert", "step.obj", "-", "--format", "stl"], "names no format that is written"),
+        (
+            &["convert", "step.obj", "-"],
+            "standard output: the format is not known; expected --format smf, obj, glb, ply or stl",
+        ),
+        (&["convert", "step.obj", "-", "--format", "off"], "names no format that is written"),
         (&["convert", "step.obj", "no.glb", "--format", "png"], "no picture is written"),
     ] {
         let output = piped(&folder, &obj, arguments);

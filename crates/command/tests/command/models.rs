@@ -25,14 +25,17 @@ fn convert_changes_formats_and_reports_losses() {
     let said = succeeds(&folder, &["convert", "teapot.smf", "teapot.glb"]);
     assert!(said.contains("teapot.glb: 1 parts") && !said.contains("lost"), "{said}");
     for (arguments, expected) in [
-        (["convert", "teapot.smf", "teapot.stl"], "names no format that is written; smf, obj or glb is expected"),
+        (
+            ["convert", "teapot.smf", "teapot.off"],
+            "names no format that is written; smf, obj, glb, gltf, ply or stl is expected",
+        ),
         (["convert", "gone.smf", "teapot.obj"], "gone.smf: cannot be read"),
     ] {
         let output = halfway(&folder, &arguments);
         let error = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.code() == Some(2) && error.contains(expected), "{arguments:?}: {error}");
     }
-    assert!(!folder.join("teapot.obj").exists() && !folder.join("teapot.stl").exists());
+    assert!(!folder.join("teapot.obj").exists() && !folder.join("teapot.off").exists());
 }
 
 /// The line that begins with this step, and the numbers in it.

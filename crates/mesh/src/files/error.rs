@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::format::Format;
 use crate::MeshError;
 
 /// Why a model file was refused. Every message begins with the file; lines are numbered from 1, as editors do, and the
@@ -49,7 +50,7 @@ pub enum LoadError {
         path: PathBuf,
     },
     /// The extension names no known format.
-    #[error("{}: the extension {extension:?} is unknown; smf, obj, gltf, glb, ply or stl is expected", path.display())]
+    #[error("{}: the extension {extension:?} is unknown; smf, obj, gltf, glb, ply, stl, off or 3mf is expected{}", path.display(), conversion(path))]
     UnknownExtension {
         /// The file.
         path: PathBuf,
@@ -133,6 +134,11 @@ impl LoadError {
             | Self::RequiredExtension { path, .. } => path,
         }
     }
+}
+
+/// How a file of a format that is not read becomes one that is.
+fn conversion(path: &Path) -> String {
+    Format::converter(path).map_or_else(String::new, |program| format!("; {program}"))
 }
 
 fn in_brackets(text: Option<&String>) -> String {

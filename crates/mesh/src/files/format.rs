@@ -25,11 +25,16 @@ pub enum Format {
     Ply,
     /// STL, in ASCII or binary.
     Stl,
+    /// OFF, in text.
+    Off,
+    /// 3MF.
+    ThreeMf,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 6] = [Self::Smf, Self::Obj, Self::Gltf, Self::Glb, Self::Ply, Self::Stl];
+    pub const ALL: [Self; 8] =
+        [Self::Smf, Self::Obj, Self::Gltf, Self::Glb, Self::Ply, Self::Stl, Self::Off, Self::ThreeMf];
 
     /// The extension of its files, without the dot.
     pub const fn extension(self) -> &'static str {
@@ -40,6 +45,30 @@ impl Format {
             Self::Glb => "glb",
             Self::Ply => "ply",
             Self::Stl => "stl",
+            Self::Off => "off",
+            Self::ThreeMf => "3mf",
+        }
+    }
+
+    /// How a file of a format that is not read is converted into one that is: a sentence that names a program, for the
+    /// usual formats of CAD, films and simulations; `None` for others.
+    ///
+    /// ```
+    /// use std::path::Path;
+    /// use halfway_mesh::Format;
+    ///
+    /// let way = Format::converter(Path::new("bracket.STEP")).unwrap();
+    /// assert_eq!(way, "FreeCAD or Gmsh converts it to stl");
+    /// ```
+    pub fn converter(path: &Path) -> Option<&'static str> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "step" | "stp" | "iges" | "igs" | "brep" | "fcstd" => Some("FreeCAD or Gmsh converts it to stl"),
+            "usd" | "usda" | "usdc" | "usdz" | "abc" | "blend" => Some("Blender converts it to glb"),
+            "fbx" | "dae" | "3ds" | "lwo" | "x" | "x3d" | "wrl" | "dxf" => {
+                Some("Blender, or `assimp export` of Assimp, converts it to glb")
+            }
+            "vtk" | "vtu" | "vtp" | "msh" | "inp" | "xdmf" => Some("meshio or ParaView converts it to ply or stl"),
+            _ => None,
         }
     }
 

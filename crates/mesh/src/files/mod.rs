@@ -4,6 +4,7 @@ mod error;
 mod format;
 mod gltf;
 mod obj;
+mod off;
 mod ply;
 mod polygon;
 mod smf;
@@ -11,6 +12,7 @@ mod source;
 mod srgb;
 mod stl;
 mod text;
+mod threemf;
 mod write;
 
 use std::cell::RefCell;
@@ -22,7 +24,7 @@ use crate::Model;
 pub use error::LoadError;
 pub use format::Format;
 pub use source::{LoadOptions, LoadProgress, MOST_PIPED};
-pub use write::{WriteError, write, write_quantised};
+pub use write::{WriteError, write, write_ascii, write_quantised};
 
 use source::Source;
 
@@ -34,7 +36,9 @@ use source::Source;
 /// | `obj` | Wavefront OBJ with its MTL files | polygons, lines, points, normals, texture coordinates, colours, smoothing groups, materials; a part for each name of an object or group and material |
 /// | `gltf`, `glb` | glTF 2.0 | the default scene: nodes, cameras, triangles, lines, points, normals, tangents, the first texture coordinates and colours, materials, skins, morph targets, animations, lights; a part for each primitive of each node |
 /// | `ply` | PLY | polygons, strips and edges, or points where there are none of them; normals, texture coordinates and colours of vertices; as one part |
-/// | `stl` | STL | triangles, with vertices at equal positions as one; a part for each solid |
+/// | `stl` | STL | triangles, with vertices at equal positions as one, colours of triangles; a part for each solid |
+/// | `off` | OFF in text, also COFF, NOFF, STOFF, 4OFF | polygons, or points where there are none; normals, texture coordinates and colours of vertices, colours of faces; as one part |
+/// | `3mf` | 3MF | the build: objects, components, transforms, base materials and colour groups in units of the file; a part for each object of each item |
 ///
 /// Polygons are cut into triangles, concave ones too. Files that a model refers to are read only from its own folder
 /// and its subfolders. [`Model::warnings`] lists what was skipped. Missing normals are computed by the default
@@ -148,6 +152,8 @@ fn parse(format: Format, source: Source) -> Result<Model, LoadError> {
         Format::Gltf | Format::Glb => gltf::parse(source, format),
         Format::Ply => ply::parse(source),
         Format::Stl => stl::parse(source),
+        Format::Off => off::parse(source),
+        Format::ThreeMf => threemf::parse(source),
     }?;
     if model.is_empty() {
         let skipped = model.warnings.into_iter().next();

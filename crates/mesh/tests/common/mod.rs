@@ -40,6 +40,45 @@ impl Drop for Folder {
     }
 }
 
+/// A zip archive of these parts, not compressed (APPNOTE 6.3.3).
+pub(crate) fn zip(parts: &[(&str, &[u8])]) -> Vec<u8> {
+    let packed: Vec<_> = parts.iter().map(|(name, bytes)| (*name, *bytes, 0, bytes.len())).collect();
+    zip_of(&packed, parts)
+}
+
+/// A zip archive of parts as they are packed, each with its method, beside those they unpack to.
+pub(crate) fn zip_of(packed: &[(&str, &[u8], u16, usize)], parts: &[(&str, &[u8])]) -> Vec<u8> {
+    let (mut file, mut directory) = (Vec::new(), Vec::new());
+    for ((name, bytes, method, length), (_, whole)) in packed.iter().zip(parts) {
+        let start = file.len() as u32;
+        let mut common = vec![20, 0, 0, 0];
+        common.extend(method.to_le_bytes());
+        // The time of day, and the first of January 1980.
+        common.extend([0, 0, 0x21, 0]);
+        common.extend([crc(whole), bytes.len() as u32, *length as u32].map(u32::to_le_bytes).as_flattened());
+        common.extend((name.len() as u32).to_le_bytes());
+        file.extend(b"PK\x03\x04".iter().chain(&common).copied().chain(name.bytes()).chain(bytes.iter().copied()));
+        directory.extend(b"PK\x01\x02\x14\0".iter().chain(&common));
+        // Of comments, disks and attributes there are none.
+        directory.extend([0; 10]);
+        directory.extend(start.to_le_bytes().iter().copied().chain(name.bytes()));
+    }
+    let (start, count) = (file.len() as u32, (parts.len() as u16).to_le_bytes());
+    let length = directory.len() as u32;
+    file.extend(directory);
+    file.extend(b"PK\x05\x06\0\0\0\0".iter().chain(&count).chain(&count));
+    file.extend([length.to_le_bytes(), start.to_le_bytes()].as_flattened());
+    file.extend([0, 0]);
+    file
+}
+
+/// CRC-32 (ISO 3309), bit by bit.
+fn crc(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 })
+    })
+}
+
 /// Checks that a model is valid.
 pub(crate) fn check_model(model: &Model) {
     assert!(!model.parts.is_empty() || !model.lines.is_empty());

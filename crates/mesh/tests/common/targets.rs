@@ -4,15 +4,15 @@
 
 use halfway_mesh::{Format, LoadError, Model, load, load_bytes};
 
-use crate::common::{Folder, check_model, glb};
+use crate::common::{Folder, check_model, glb, zip};
 use crate::counting::{Counting, most_for};
 
 /// The further memory of a model read from files: the buffers of the two files that are open at once.
 const BUFFERS: usize = 1 << 19;
 
 /// Reads the bytes as `target` says: `mtl` is the material library of an OBJ file, `glb_chunks` the JSON of a binary
-/// glTF file up to the first zero byte and its buffer after that, so that no length in the file need be guessed; any
-/// other is the extension of a format.
+/// glTF file up to the first zero byte and its buffer after that, so that no length in the file need be guessed,
+/// `threemf_model` the model in an archive of 3MF, so that no checksum need be; any other is the extension of a format.
 pub(crate) fn feed(target: &str, bytes: &[u8], allocator: &Counting) {
     match target {
         "mtl" => {
@@ -27,6 +27,12 @@ pub(crate) fn feed(target: &str, bytes: &[u8], allocator: &Counting) {
             let file = glb(json, bytes.get(end + 1..).unwrap_or_default());
             judge(target, allocator, most_for(file.len()), || load_bytes(Format::Glb, &file));
         }
+        "threemf_model" => {
+            let file = zip(&[("3D/3dmodel.model", bytes)]);
+            judge(target, allocator, most_for(file.len()), || load_bytes(Format::ThreeMf, &file));
+        }
+        // No name of a target begins with a digit.
+        "threemf" => judge(target, allocator, most_for(bytes.len()), || load_bytes(Format::ThreeMf, bytes)),
         _ => {
             let format = Format::ALL.into_iter().find(|format| format.extension() == target);
             let format = format.unwrap_or_else(|| panic!("no target is called {target}"));

@@ -97,6 +97,9 @@ fn corpus() -> Vec<(&'static str, Format, Vec<u8>)> {
         ("PLY, big end first", Format::Ply, ply(Some(true))),
         ("STL in ASCII", Format::Stl, STL.into()),
         ("binary STL", Format::Stl, binary_stl()),
+        ("OFF", Format::Off, include_bytes!("../../../../fuzz/seeds/off/all.off").into()),
+        ("OFF with colours of faces", Format::Off, include_bytes!("../../../../fuzz/seeds/off/faces.off").into()),
+        ("3MF", Format::ThreeMf, include_bytes!("../../../../fuzz/seeds/threemf/plates.3mf").into()),
     ]
 }
 

@@ -35,7 +35,7 @@ fn only_regular_files_of_known_kinds_are_opened() {
     }
     // Number 2 on every system.
     let missing = || format!("cannot be read: {}", std::io::Error::from_raw_os_error(2));
-    let unknown = "is unknown; smf, obj, gltf, glb, ply or stl is expected";
+    let unknown = "is unknown; smf, obj, gltf, glb, ply, stl, off or 3mf is expected";
     let rows = [
         ("gone.smf", missing()),
         ("gone.obj", missing()),
@@ -45,7 +45,13 @@ fn only_regular_files_of_known_kinds_are_opened() {
         ("model.obj", "the file is empty".to_owned()),
         ("model.gltf", "the file is empty".to_owned()),
         ("model.glb", "the file is empty".to_owned()),
-        ("model.fbx", format!("the extension \"fbx\" {unknown}")),
+        (
+            "model.fbx",
+            format!("the extension \"fbx\" {unknown}; Blender, or `assimp export` of Assimp, converts it to glb"),
+        ),
+        ("model.step", format!("the extension \"step\" {unknown}; FreeCAD or Gmsh converts it to stl")),
+        ("model.usdz", format!("the extension \"usdz\" {unknown}; Blender converts it to glb")),
+        ("model.vtp", format!("the extension \"vtp\" {unknown}; meshio or ParaView converts it to ply or stl")),
         ("model", format!("the extension \"\" {unknown}")),
         ("model.ply", "the file is empty".to_owned()),
         ("model.STL", "the file is empty".to_owned()),

@@ -93,7 +93,7 @@ fn a_bare_usemtl_takes_the_material_away() {
 
 #[test]
 fn every_statement_of_a_material_is_kept() {
-    let mtl = "\u{feff}# two materials\nnewmtl all of it\n Ka 0.1 0.2 0.3\nKd 0.5\nKs 1 1 1 # white\n\tKe 0 0 2.5\nNs 27.8974\nd 0.75\nTr 0.5\nillum 2\nNi 1.5\nTf 1 1 1\nunknown thing\nnewmtl nothing\n";
+    let mtl = "\u{feff}# two materials\nnewmtl all of it\n Ka 0.1 0.2 0.3\nKd 0.5\nKs 1 1 1 # white\n\tKe 0 0 2.5\nNs 27.8974\nd 0.75\nTr 0.5\nillum 2\nNi 1.5\nPr 0.25\nPm 1\nTf 1 1 1\nnewmtl nothing\n";
     let model = load_with_mtl(&format!("mtllib model.mtl\n{SQUARE}usemtl all of it\nf 1 2 3\n"), mtl);
     let all = MtlMaterial {
         name: "all of it".to_owned(),
@@ -105,6 +105,8 @@ fn every_statement_of_a_material_is_kept() {
         d: Some(0.75),
         tr: Some(0.5),
         illum: Some(2),
+        pr: Some(0.25),
+        pm: Some(1.0),
         maps: MtlMaps::default(),
     };
     let nothing = MtlMaterial { name: "nothing".to_owned(), ..MtlMaterial::default() };
@@ -248,16 +250,19 @@ fn skipped_contents_give_warnings() {
     }
     let model = load_with_mtl(
         &format!("mtllib model.mtl\n{SQUARE}f 1 2 3\n"),
-        "newmtl a\nmap_Ka a.png\nmap_Ka b.png\nd -halo 0.5\nKd spectral a.rfl\ndisp d.png\nmap_Pr r.png\n",
+        "newmtl a\nmap_Ka a.png\nmap_Ka b.png\nd -halo 0.5\nKd spectral a.rfl\ndisp d.png\nmap_Pr r.png\nPs 0.5\nTf 0 1 1\nrefl -type sphere r.png\n",
     );
     assert_eq!(
         model.warnings,
         [
-            "model.mtl:2: the texture `map_Ka` is skipped (and 1 more such lines)",
+            "model.mtl:3: the texture `map_Ka` is skipped",
             "model.mtl:4: `d -halo` is skipped",
             "model.mtl:5: `Kd spectral` is skipped",
             "model.mtl:6: the texture `disp` is skipped",
             "model.mtl:7: the texture `map_Pr` is skipped",
+            "model.mtl:8: `Ps` is skipped",
+            "model.mtl:9: `Tf` is skipped",
+            "model.mtl:10: the texture `refl` is skipped",
         ]
     );
 }
@@ -319,28 +324,77 @@ fn malformed_files_are_refused_by_line() {
     }
 }
 
+/// One odd statement costs no more than itself.
 #[test]
-fn malformed_libraries_are_refused_by_line() {
+fn malformed_statements_of_a_library_are_left_out() {
     let rows = [
-        ("no name", "newmtl\n", ":1: `newmtl`; `newmtl` and a name is expected"),
-        ("no material", "Kd 1 1 1\n", ":1: `Kd 1 1 1`; `newmtl` and a name before it is expected"),
-        ("two numbers", "newmtl a\nKd 1 1\n", ":2: `Kd 1 1`; a colour of three numbers is expected"),
-        ("no numbers", "newmtl a\nKs\n", ":2: `Ks`; a colour of three numbers is expected"),
-        ("NaN", "newmtl a\nKe 0 nan 0\n", ":2: `nan` in `Ke`; a finite number is expected"),
-        ("infinite", "newmtl a\nNs 1e99\n", ":2: `1e99` in `Ns`; a finite number is expected"),
-        ("two exponents", "newmtl a\nNs 1 2\n", ":2: `Ns 1 2`; one number is expected"),
-        ("word", "newmtl a\nd half\n", ":2: `half` in `d`; a finite number is expected"),
-        ("model", "newmtl a\nillum 256\n", ":2: `illum 256`; `illum` and a number from 0 to 255 is expected"),
-        ("no model", "newmtl a\nillum\n", ":2: `illum`; `illum` and a number from 0 to 255 is expected"),
+        ("no name", "newmtl\n", "1: `newmtl`; `newmtl` and a name is"),
+        ("no material", "Kd 1 1 1\n", "1: `Kd 1 1 1`; `newmtl` and a name before it is"),
+        ("two numbers", "newmtl a\nKd 1 1\n", "2: `Kd 1 1`; a colour of three numbers is"),
+        ("four numbers", "newmtl a\nKd 0.5 0.5 0.5 1.0\n", "2: `Kd 0.5 0.5 0.5 1.0`; a colour of three numbers is"),
+        ("commas", "newmtl a\nKd 0,8 0,2 0,2\n", "2: `0,8` in `Kd`; a finite number is"),
+        ("no numbers", "newmtl a\nKs\n", "2: `Ks`; a colour of three numbers is"),
+        ("NaN", "newmtl a\nKe 0 nan 0\n", "2: `nan` in `Ke`; a finite number is"),
+        ("negative", "newmtl a\nKa 0 -1 0\n", "2: `Ka 0 -1 0`; a colour of three numbers from 0 to 10¹² is"),
+        ("infinite", "newmtl a\nNs 1e99\n", "2: `1e99` in `Ns`; a finite number is"),
+        ("negative exponent", "newmtl a\nNs -5\n", "2: `Ns -5`; a number from 0 on is"),
+        ("two exponents", "newmtl a\nNs 1 2\n", "2: `Ns 1 2`; one number is"),
+        ("word", "newmtl a\nd half\n", "2: `half` in `d`; a finite number is"),
+        ("rough", "newmtl a\nPr 1.5\n", "2: `Pr 1.5`; a number from 0 to 1 is"),
+        ("model", "newmtl a\nillum 256\n", "2: `illum 256`; `illum` and a number from 0 to 255 is"),
+        ("fraction", "newmtl a\nillum 2.0\n", "2: `illum 2.0`; `illum` and a number from 0 to 255 is"),
+        ("no model", "newmtl a\nillum\n", "2: `illum`; `illum` and a number from 0 to 255 is"),
     ];
     for (name, mtl, expected) in rows {
-        let folder = Folder::new();
-        let library = folder.write("model.mtl", mtl);
-        let path = folder.write("model.obj", format!("mtllib model.mtl\n{SQUARE}f 1 2 3\n"));
-        let error = load(&path).unwrap_err();
-        assert_eq!(error.to_string(), format!("{}{expected}", library.display()), "{name}");
-        assert_eq!(error.path(), library, "{name}");
+        let model =
+            load_with_mtl(&format!("mtllib model.mtl\n{SQUARE}f 1 2 3\n"), &format!("{mtl}newmtl b\nKd 1 0 0\n"));
+        assert_eq!(model.warnings, [format!("model.mtl:{expected} expected, and the statement is skipped")], "{name}");
+        let last = model.materials.last().expect("b");
+        assert!(matches!(last, SourceMaterial::Mtl(b) if b.name == "b" && b.kd == Some([1.0, 0.0, 0.0])), "{name}");
+        if let [SourceMaterial::Mtl(a), _] = &model.materials[..] {
+            assert_eq!(*a, MtlMaterial { name: "a".to_owned(), ..MtlMaterial::default() }, "{name}");
+        }
     }
+    let model = load_with_mtl(&format!("mtllib model.mtl\n{SQUARE}f 1 2 3\n"), "newmtl p\nKd 0.8 0.2 0.2\nKd 1 1\n");
+    assert!(matches!(&model.materials[..], [SourceMaterial::Mtl(p)] if p.kd == Some([0.8, 0.2, 0.2])));
+}
+
+/// Libraries in folders, with the backslashes of other systems, and images beside them, beside the model, or only known
+/// by their names.
+#[test]
+fn images_are_found_beside_the_library_or_the_model() {
+    let rows: [(&str, &str, Option<&str>); 6] = [
+        ("wood.png", "mats/wood.png", None),
+        ("mats\\wood.png", "mats/wood.png", None),
+        ("wood.png", "wood.png", None),
+        ("/home/artist/wood.png", "mats/wood.png", Some("mats/wood.png")),
+        ("C:\\textures\\wood.png", "wood.png", Some("wood.png")),
+        ("../wood.png", "wood.png", Some("wood.png")),
+    ];
+    for (name, place, fallback) in rows {
+        let folder = Folder::new();
+        folder.write("mats/paint.mtl", format!("newmtl p\nmap_Kd {name}\n"));
+        let image = folder.write(place, "image");
+        let obj = format!("mtllib mats\\paint.mtl\n{SQUARE}usemtl p\nf 1 2 3\n");
+        let model = load(&folder.write("model.obj", obj)).unwrap();
+        let [SourceMaterial::Mtl(mtl)] = &model.materials[..] else { panic!("{name}: {:?}", model.materials) };
+        assert_eq!(&*mtl.maps.kd.as_ref().unwrap().bytes, b"image", "{name}");
+        let expected = fallback.map(|_| {
+            let name = name.replace('\\', "/");
+            format!("paint.mtl:2: the texture {name} of `map_Kd` is not there; {} is read", image.display())
+        });
+        assert_eq!(model.warnings, Vec::from_iter(expected), "{name}");
+    }
+}
+
+/// The image of `map_Kd` multiplies the ambient reflectance, too.
+#[test]
+fn an_ambient_image_that_is_the_diffuse_one_is_shown() {
+    let folder = Folder::new();
+    folder.write("a.png", "image");
+    folder.write("model.mtl", "newmtl p\nmap_Ka -clamp on a.png\nmap_Kd a.png\n");
+    let model = load(&folder.write("model.obj", format!("mtllib model.mtl\n{SQUARE}usemtl p\nf 1 2 3\n"))).unwrap();
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
 }
 
 #[test]

@@ -10,6 +10,18 @@ fn load_text(text: impl AsRef<[u8]>) -> Model {
     load(&folder.write("model.smf", text)).unwrap()
 }
 
+/// Positions that f32 would round are counted from an origin, transformed ones too.
+#[test]
+fn far_positions_have_an_origin() {
+    let far = load_text(b"v 5000000.1 0 0\nv 5000000.3 0 0\nv 5000000.1 0.2 0\nv 5000000.3 0.2 0\nf 1 2 4 3\n");
+    let moved = b"trans 5000000 0 0\nv 0.1 0 0\nv 0.3 0 0\nv 0.1 0.2 0\nv 0.3 0.2 0\nv 9e9 0 0\nf 1 2 4 3\n";
+    for model in [far, load_text(moved)] {
+        assert!((model.origin.x - 5e6).abs() < 1.0, "{}", model.origin);
+        let size = model.bounds().unwrap().size();
+        assert!((size - Vec3::new(0.2, 0.2, 0.0)).length() < 1e-6 && model.triangle_count() == 2, "{size}");
+    }
+}
+
 #[test]
 fn vertices_and_faces_are_read() {
     let rows: [(&str, &[u8]); 6] = [

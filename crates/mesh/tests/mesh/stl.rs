@@ -73,7 +73,13 @@ fn solids_become_parts_and_oddities_are_warnings() {
     let mut colored = binary("");
     let last = colored.len() - 1;
     colored[last] = 0x80;
-    assert_eq!(load(colored).warnings, ["the attributes (colours, by some programs) of 1 triangles are skipped"]);
+    colored[last - 1] = 1;
+    colored[last] = 0;
+    let model = load(colored);
+    assert_eq!(model.warnings, ["the attributes of 1 triangles, which are no colours, are skipped"]);
+    assert_eq!(model.parts[0].mesh.colors(), None);
+    // A normal is not needed.
+    assert_eq!(load(ascii().replace("facet normal 0 0 1", "facet")).parts[0].mesh, two.parts[0].mesh);
 }
 
 #[test]
@@ -82,25 +88,23 @@ fn malformed_files_are_refused() {
         (
             "two numbers",
             ascii().replace("vertex 1 1 0e0", "vertex 1 1"),
-            ":6: `vertex 1 1`; `vertex` and three numbers are",
+            ":7: `endloop` after `vertex`; three finite numbers are expected",
         ),
         (
             "NaN",
             ascii().replace("vertex 1 1 0e0", "vertex 1 1 nan"),
-            ":6: `nan` in `vertex`; a finite number is expected",
+            ":6: `nan` after `vertex`; three finite numbers are expected",
         ),
+        ("beyond f32", ascii().replace("1 1 0e0", "1 1e39 0"), ":6: `1e39` after `vertex`; three finite numbers are"),
         (
-            "no normal",
-            ascii().replace("facet normal 0 0 1", "facet"),
-            ":2: `facet`; `facet normal` and three numbers are",
+            "half a normal",
+            ascii().replace("normal 0 0 1", "normal 0 0"),
+            ":3: `outer` after `normal`; three numbers are",
         ),
-        (
-            "four vertices",
-            ascii().replace("endloop", "vertex 0 0 0"),
-            ":7: `vertex 0 0 0`; three vertices in a facet are",
-        ),
+        ("a facet in a facet", ascii().replacen("endfacet", "", 1), ":9: `facet`; `endfacet` before it is expected"),
+        ("four vertices", ascii().replace("endloop", "vertex 0 0 0"), ":7: `vertex`; three vertices in a facet are"),
         ("two vertices", ascii().replace("vertex 1 1 0e0\n", ""), ":7: `endfacet`; three vertices before it are"),
-        ("outside a facet", "solid\nvertex 0 0 0\n".to_owned(), ":2: `vertex 0 0 0`; three vertices in a facet are"),
+        ("outside a facet", "solid\nvertex 0 0 0\n".to_owned(), ":2: `vertex`; three vertices in a facet are"),
         ("cut", ascii()[..100].to_owned(), ":"),
         (
             "inside a facet",
@@ -124,4 +128,92 @@ fn malformed_files_are_refused() {
     let mut infinite = binary("");
     infinite[84 + 50 + 12..][..4].copy_from_slice(&f32::INFINITY.to_le_bytes());
     assert_eq!(message(infinite), "model.stl: triangle 1: the corner [inf, 0.0, 0.0]; finite numbers are expected");
+}
+
+/// The header's beginning says nothing where the size is that of a binary file, or more.
+#[test]
+fn binary_is_told_by_its_size() {
+    let mut file = binary("solid");
+    file.push(b'\n');
+    assert_eq!(load(&file).parts[0].mesh, load(ascii()).parts[0].mesh);
+    // Spaces instead of a count ask for more than there is.
+    assert!(message([b' '; 100]).contains("the 26948814484 bytes that 538976288 triangles take"));
+}
+
+#[test]
+fn white_space_may_stand_anywhere() {
+    let expected = load(ascii());
+    let one_line = ascii().replace('\n', " ");
+    let a_word_a_line = ascii().replace("solid a square", "solid").replace(' ', "\n");
+    for (text, name) in [
+        (one_line.clone(), "a square"),
+        (format!("\u{feff}{one_line}"), "a square"),
+        (format!("\n\n {one_line}"), "a square"),
+        (a_word_a_line, "model"),
+        (ascii().replace('\n', "\t \r\n\r\n"), "a square"),
+    ] {
+        let model = load(&text);
+        let [part] = &model.parts[..] else { panic!("{text:?}: {} parts", model.parts.len()) };
+        assert_eq!((&part.mesh, &part.name[..]), (&expected.parts[0].mesh, name), "{text:?}");
+        assert!(model.warnings.is_empty(), "{text:?}: {:?}", model.warnings);
+    }
+    let two = load(format!("{one_line}{}", one_line.replace("a square", "b")));
+    assert_eq!(two.parts.iter().map(|part| &part.name[..]).collect::<Vec<_>>(), ["a square", "b"]);
+}
+
+/// The linear intensity of this many 31sts in sRGB.
+fn linear(x: f32) -> f32 {
+    ((x / 31.0 + 0.055) / 1.055).powf(2.4)
+}
+
+fn with_attributes(header: &[u8], attributes: [u16; 2]) -> Vec<u8> {
+    let mut file = binary("");
+    file[..header.len()].copy_from_slice(header);
+    for (triangle, attribute) in attributes.into_iter().enumerate() {
+        let at = 84 + 50 * triangle + 48;
+        file[at..at + 2].copy_from_slice(&attribute.to_le_bytes());
+    }
+    file
+}
+
+#[test]
+fn attributes_that_are_colours_become_those_of_vertices() {
+    let red_of_viscam = 0x8000 | 31 << 10 | 15;
+    let rows = [
+        ("VisCAM", with_attributes(b"", [0, red_of_viscam]), [[1.0; 3], [1.0, 0.0, linear(15.0)]]),
+        (
+            "Magics",
+            with_attributes(b"a COLOR=\xFF\0\0\xFF", [31 << 10 | 15, 0x8000]),
+            [[linear(15.0), 0.0, 1.0], [1.0, 0.0, 0.0]],
+        ),
+    ];
+    for (name, file, expected) in rows {
+        let model = load(file);
+        assert!(model.warnings.is_empty(), "{name}: {:?}", model.warnings);
+        let mesh = &model.parts[0].mesh;
+        // Two of four corners have two colours. Their normals are shared all the same.
+        assert_eq!((mesh.positions().len(), mesh.normals()), (6, &[Vec3::Z; 6][..]), "{name}");
+        let colors = mesh.colors().expect("they are there");
+        for (triangle, expected) in mesh.triangles().zip(expected) {
+            for corner in triangle {
+                let off = (colors[corner as usize].truncate() - Vec3::from(expected)).abs().max_element();
+                assert!(off < 1e-5, "{name}: {}", colors[corner as usize]);
+            }
+        }
+    }
+    let model = load(with_attributes(b"COLOR=\xFF\xFF\xFF\xFF,MATERIAL=\0\0\0", [0x8000; 2]));
+    assert_eq!(model.warnings, ["the material in the header is skipped"]);
+    assert_eq!(model.parts[0].mesh.positions().len(), 4);
+}
+
+/// Positions that f32 would round are counted from an origin.
+#[test]
+fn far_solids_have_an_origin() {
+    let far = ascii().replace("vertex ", "vertex 5000000.").replace("5000000.-0", "5000000.0");
+    let model = load(&far);
+    assert_eq!(model.origin.x, 5_000_000.0);
+    let size = model.bounds().unwrap().size();
+    // 5000000.0 and 5000000.1: f32 has steps of 0.5 there.
+    assert!((size.x - 0.1).abs() < 1e-6, "{size}");
+    assert_eq!(load(ascii()).origin, glam::DVec3::ZERO);
 }

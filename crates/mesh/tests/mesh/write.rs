@@ -2,9 +2,11 @@
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use halfway_mesh::{
-    AlphaMode, Cuboid, GltfMaps, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera, SourceLight,
-    SourceLightKind, SourceMaterial, SourceProjection, Teapot, WriteError, load, write, write_quantised,
+    AlphaMode, Cuboid, GltfMaps, LinePart, Lines, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera,
+    SourceChannel, SourceLevels, SourceLight, SourceLightKind, SourceMap, SourceMaterial, SourceProjection, SourceWrap,
+    Teapot, WriteError, load, write, write_ascii, write_quantised,
 };
+use proptest::prelude::*;
 
 use crate::common::{Folder, check_model};
 
@@ -233,10 +235,7 @@ fn text_formats_warn_of_losses() {
     assert_eq!(lost[..3], common);
     assert_eq!(
         lost[3..],
-        [
-            "1 materials get another name",
-            "1 materials lose their metallic, roughness and alpha mode, and which faces they show",
-        ]
+        ["1 materials get another name", "1 materials lose their alpha mode, and which faces they show",]
     );
     for path in [&smf, &obj] {
         let read = load(path).unwrap();
@@ -274,8 +273,8 @@ fn failed_writes_leave_no_file() {
         let path = folder.path().join(name);
         write(&path, model).unwrap_err().to_string().replace(&path.display().to_string(), "FILE")
     };
-    let known = "names no format that is written; smf, obj or glb is expected";
-    assert_eq!(message("model.ply", &model), format!("FILE: the extension \"ply\" {known}"));
+    let known = "names no format that is written; smf, obj, glb, gltf, ply or stl is expected";
+    assert_eq!(message("model.off", &model), format!("FILE: the extension \"off\" {known}"));
     assert_eq!(message("model", &model), format!("FILE: the extension \"\" {known}"));
     assert_eq!(message("model.obj", &Model::default()), "FILE: the model has no parts; at least one is expected");
     assert!(message("no/such/folder.obj", &model).starts_with("FILE: cannot be written: "));
@@ -288,4 +287,262 @@ fn failed_writes_leave_no_file() {
     assert!(message("taken.smf", &model).starts_with("FILE: cannot be written: "));
     let names: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(names.len(), 2, "{names:?}");
+}
+
+/// A model in every format that holds it, and read again.
+fn again(folder: &Folder, name: &str, model: &Model) -> (Model, Vec<String>) {
+    let path = folder.path().join(name);
+    let lost = write(&path, model).unwrap();
+    let read = load(&path).unwrap();
+    check_model(&read);
+    (read, lost)
+}
+
+#[test]
+fn ply_comes_back() {
+    let folder = Folder::new();
+    let mesh = odd_mesh().with_colors(vec![Vec4::new(1.0, 0.5, 0.0, 0.2); 4]).unwrap();
+    let model = of_parts(vec![part("model", mesh.clone(), None)]);
+    let (binary, lost) = again(&folder, "model.ply", &model);
+    assert_eq!(lost, ["colours are rounded to 8 bits"]);
+    let path = folder.path().join("ascii.ply");
+    assert_eq!(write_ascii(&path, &model).unwrap(), lost);
+    assert!(std::fs::read_to_string(&path).unwrap().starts_with("ply\nformat ascii 1.0\n"));
+    let ascii = load(&path).unwrap();
+    for read in [&binary, &ascii] {
+        let found = &read.parts[0].mesh;
+        let bits = |mesh: &Mesh| mesh.positions().iter().map(|p| p.to_array().map(f32::to_bits)).collect::<Vec<_>>();
+        assert_eq!(bits(found), bits(&mesh));
+        assert_eq!((found.indices(), found.normals()), (mesh.indices(), mesh.normals()));
+        // Texture coordinates run upward there, in f32.
+        assert!(found.uvs().unwrap().iter().zip(mesh.uvs().unwrap()).all(|(a, b)| a.distance(*b) < 1e-6));
+        assert!(
+            found.colors().unwrap().iter().all(|c| (*c - Vec4::new(1.0, 0.5, 0.0, 0.2)).abs().max_element() < 0.01)
+        );
+    }
+    let error = write_ascii(&folder.path().join("model.stl"), &model).unwrap_err().to_string();
+    assert!(error.ends_with("model.stl: only .ply is binary or ASCII"), "{error}");
+}
+
+#[test]
+fn ply_holds_lines_or_points() {
+    let folder = Folder::new();
+    let lines = Lines::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1], [1, 2]], vec![2]).unwrap();
+    let lines = LinePart { name: "model".to_owned(), lines, material: None, world_from_part: Mat4::IDENTITY };
+    let model = Model { lines: vec![lines], ..of_parts(vec![part("model", odd_triangle(), None)]) };
+    let (read, lost) = again(&folder, "both.ply", &model);
+    assert_eq!((read.triangle_count(), read.line_count(), read.point_count()), (1, 2, 0));
+    assert_eq!(lost, ["1 points", "the names and borders of 2 parts"]);
+    let cloud = Lines::cloud(vec![Vec3::ZERO, Vec3::X]).unwrap();
+    let cloud = LinePart { name: "model".to_owned(), lines: cloud, material: None, world_from_part: Mat4::IDENTITY };
+    let (read, lost) = again(&folder, "cloud.ply", &Model { lines: vec![cloud], ..Model::default() });
+    assert_eq!((read.point_count(), read.lines[0].lines.positions()[1]), (2, Vec3::X));
+    assert!(lost.is_empty(), "{lost:?}");
+}
+
+#[test]
+fn stl_comes_back() {
+    let folder = Folder::new();
+    let model = scene();
+    let (read, lost) = again(&folder, "model.stl", &model);
+    assert_eq!(
+        lost,
+        [
+            "2 places of parts; their vertices are moved instead",
+            "2 lights",
+            "2 cameras",
+            "2 materials",
+            "the names and borders of 2 parts"
+        ]
+    );
+    assert_eq!(read.triangle_count(), 2);
+    // The mirrored part, too, keeps its front: its normals agree with its winding.
+    assert!(read.warnings.is_empty(), "{:?}", read.warnings);
+    let plain = of_parts(vec![part("model", odd_triangle(), None)]);
+    assert_eq!(again(&folder, "plain.stl", &plain).0.parts[0].mesh.positions(), odd_triangle().positions());
+    let (_, lost) = again(&folder, "odd.stl", &of_parts(vec![part("", teapot(), None)]));
+    assert!(lost.contains(&"1 parts lose their texture coordinates".to_owned()), "{lost:?}");
+}
+
+/// Positions of a model far away keep the numbers of its file.
+#[test]
+fn far_models_keep_their_numbers() {
+    let folder = Folder::new();
+    let text = "v 400000.1 5000000.2 0.3\nv 400010.7 5000000.2 0\nv 400000.1 5000009.4 6.5\nf 1 2 3\n";
+    let numbers = [[400_000.1, 5_000_000.2, 0.3], [400_010.7, 5_000_000.2, 0.0], [400_000.1, 5_000_009.4, 6.5]];
+    let origin = glam::DVec3::new(400_008.0, 5_000_008.0, 0.0);
+    let place = |[x, y, z]: [f64; 3]| (glam::DVec3::new(x, y, z) - origin).as_vec3();
+    let mesh = Mesh::new(numbers.map(place).to_vec(), vec![0, 1, 2]).unwrap();
+    let model = Model { origin, ..of_parts(vec![part("far", mesh, None)]) };
+    for name in ["far.obj", "far.smf"] {
+        write(&folder.path().join(name), &model).unwrap();
+        let written = std::fs::read_to_string(folder.path().join(name)).unwrap();
+        for line in text.lines().take(3) {
+            assert!(written.contains(&format!("{line}\n")), "{name}: {written}");
+        }
+    }
+    write_ascii(&folder.path().join("far.ply"), &model).unwrap();
+    let written = std::fs::read_to_string(folder.path().join("far.ply")).unwrap();
+    assert!(written.contains("property double x") && written.contains("\n400010.7 5000000.2 0 "), "{written}");
+    write(&folder.path().join("far.ply"), &model).unwrap();
+    let written = std::fs::read(folder.path().join("far.ply")).unwrap();
+    let near: f64 = f64::from_le_bytes(
+        written[written.windows(11).position(|w| w == b"end_header\n").unwrap() + 11..][..8].try_into().unwrap(),
+    );
+    assert!((near - 400_000.1).abs() < 1e-6, "{near}");
+    write(&folder.path().join("far.gltf"), &model).unwrap();
+    let json = std::fs::read_to_string(folder.path().join("far.gltf")).unwrap();
+    assert!(json.contains(r#""children":[0],"translation":[400008.0,5000008.0,0.0]"#), "{json}");
+    let lost = write(&folder.path().join("far.stl"), &model).unwrap();
+    assert_eq!(lost, ["positions, which are far from 0, are rounded to single precision, by at most 2.0e-1"]);
+}
+
+/// The first bytes of a PNG, so that writers know it for one.
+const PNG: &[u8] = b"\x89PNG\r\n\x1a\n and more";
+
+fn map(bytes: &[u8]) -> SourceMap {
+    SourceMap::new("../odd \\ name?.png".to_owned(), bytes.into())
+}
+
+#[test]
+fn gltf_and_glb_keep_images() {
+    let folder = Folder::new();
+    let mut model = scene();
+    let image = map(PNG);
+    let SourceMaterial::MetallicRoughness(pbr) = &mut model.materials[0] else { panic!() };
+    pbr.maps.base_color = Some(SourceMap {
+        wrap: [SourceWrap::Clamp, SourceWrap::Mirror],
+        smooth: false,
+        levels: SourceLevels::None,
+        uv_set: 1,
+        offset: [0.25, 0.5],
+        rotation: 0.5,
+        scale: [2.0, 3.0],
+        ..image.clone()
+    });
+    pbr.maps.normal = Some(SourceMap { amount: 0.5, ..image.clone() });
+    pbr.maps.occlusion = Some(SourceMap { amount: 0.75, ..map(b"\xFF\xD8\xFF and more") });
+    let SourceMaterial::Mtl(mtl) = &mut model.materials[1] else { panic!() };
+    mtl.maps.kd = Some(image.clone());
+    mtl.maps.ks = Some(image.clone());
+    mtl.maps.ke = Some(map(b"BM and more"));
+    mtl.maps.norm = Some(map(b""));
+    for name in ["model.glb", "a model.gltf"] {
+        let path = folder.path().join(name);
+        let lost = write(&path, &model).unwrap();
+        assert_eq!(
+            lost[1..],
+            [
+                "1 images of highlights, opacity or height, which glTF has in other forms",
+                "1 images that are neither PNG nor JPEG nor WebP",
+                "1 images that could not be read",
+            ],
+            "{name}"
+        );
+        let read = load(&path).unwrap();
+        assert!(read.warnings.is_empty(), "{name}: {:?}", read.warnings);
+        let (SourceMaterial::MetallicRoughness(found), SourceMaterial::MetallicRoughness(expected)) =
+            (&read.materials[0], &model.materials[0])
+        else {
+            panic!()
+        };
+        let pairs = [
+            (&found.maps.base_color, &expected.maps.base_color),
+            (&found.maps.normal, &expected.maps.normal),
+            (&found.maps.occlusion, &expected.maps.occlusion),
+        ];
+        for (found, expected) in pairs {
+            let (found, expected) = (found.as_ref().unwrap(), expected.as_ref().unwrap());
+            assert_eq!(SourceMap { name: expected.name.clone(), ..found.clone() }, *expected, "{name}");
+        }
+        let SourceMaterial::MetallicRoughness(of_mtl) = &read.materials[1] else { panic!() };
+        assert_eq!(&*of_mtl.maps.base_color.as_ref().unwrap().bytes, PNG);
+        assert_eq!(read.parts.len(), model.parts.len());
+    }
+    let mut names: Vec<_> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["a model.bin", "a model.gltf", "a model_0.png", "a model_1.jpg", "model.glb"]);
+}
+
+#[test]
+fn obj_keeps_images_beside_it() {
+    let folder = Folder::new();
+    let mut model = scene();
+    let placed = SourceMap { offset: [0.25, 0.5], scale: [2.0, 4.0], wrap: [SourceWrap::Clamp; 2], ..map(PNG) };
+    let SourceMaterial::MetallicRoughness(pbr) = &mut model.materials[0] else { panic!() };
+    pbr.maps.base_color = Some(SourceMap { rotation: 1.0, uv_set: 1, wrap: [SourceWrap::Mirror; 2], ..map(b"GIF89a") });
+    pbr.maps.occlusion = Some(map(PNG));
+    let SourceMaterial::Mtl(mtl) = &mut model.materials[1] else { panic!() };
+    mtl.maps.kd = Some(placed.clone());
+    mtl.maps.d = Some(SourceMap { channel: Some(SourceChannel::Green), ..placed.clone() });
+    mtl.maps.bump = Some(SourceMap { amount: 0.5, ..placed });
+    let (read, lost) = again(&folder, "model.obj", &model);
+    for expected in [
+        "1 occlusion images",
+        "2 rotations of images",
+        "2 images that are mirrored, or end along one axis alone",
+        "2 images by the second texture coordinates, which take the first",
+    ] {
+        assert!(lost.iter().any(|lost| lost == expected), "{expected}: {lost:?}");
+    }
+    assert_eq!(read.warnings, ["model.obj:12: the material `none` is nowhere defined"]);
+    let (SourceMaterial::Mtl(gold), SourceMaterial::Mtl(found)) = (&read.materials[0], &read.materials[1]) else {
+        panic!()
+    };
+    let SourceMaterial::Mtl(expected) = &model.materials[1] else { panic!() };
+    for (found, expected) in [
+        (&found.maps.kd, &expected.maps.kd),
+        (&found.maps.d, &expected.maps.d),
+        (&found.maps.bump, &expected.maps.bump),
+    ] {
+        let (found, expected) = (found.as_ref().unwrap(), expected.as_ref().unwrap());
+        assert_eq!(SourceMap { name: expected.name.clone(), ..found.clone() }, *expected);
+    }
+    assert_eq!(gold.maps.kd.as_ref().unwrap().name, "model_0.gif");
+    // The opacity of a masked material is in its image's alpha.
+    assert_eq!(gold.maps.d.as_ref().unwrap().channel, Some(SourceChannel::Alpha));
+    let (_, lost) = again(&folder, "model.smf", &model);
+    assert!(lost.contains(&"2 materials lose their images".to_owned()), "{lost:?}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Whatever their size, positions come back to the bit, near or far from 0.
+    #[test]
+    fn positions_of_any_size_come_back(
+        corners in proptest::collection::vec([-1.0_f32..1.0, -1.0_f32..1.0, -1.0_f32..1.0], 3..12),
+        exponent in -20_i32..20,
+        far in proptest::option::of(8_i32..20),
+    ) {
+        let size = 2.0_f32.powi(exponent);
+        let positions: Vec<Vec3> = corners.iter().map(|p| Vec3::from(*p) * size).collect();
+        let indices: Vec<u32> = (0..positions.len() as u32 / 3 * 3).collect();
+        let positions = positions[..indices.len()].to_vec();
+        let mesh = Mesh::new(positions, indices).unwrap();
+        let origin = glam::DVec3::splat(far.map_or(0.0, |far| f64::from(size) * 2.0_f64.powi(far)));
+        let model = Model { origin, ..of_parts(vec![part("model", mesh.clone(), None)]) };
+        let folder = Folder::new();
+        for name in ["m.obj", "m.smf", "m.ply", "m.glb", "m.gltf"] {
+            // Those readers that keep an origin.
+            if far.is_some() && name != "m.smf" {
+                continue;
+            }
+            let path = folder.path().join(name);
+            write(&path, &model).unwrap();
+            // Readers choose an origin of their own.
+            let read = load(&path).unwrap();
+            let found = &read.parts[0];
+            let world = |p: &Vec3| read.origin + found.world_from_part.as_dmat4().transform_point3(p.as_dvec3());
+            let found: Vec<_> = found.mesh.triangles().flatten().map(|corner| world(&found.mesh.positions()[corner as usize])).collect();
+            for (found, corner) in found.iter().zip(mesh.indices()) {
+                let expected = origin + mesh.positions()[*corner as usize].as_dvec3();
+                let off = (*found - expected).abs().max_element();
+                prop_assert!(off <= f64::from(size) * 3e-7, "{name}: {found} {expected}");
+            }
+        }
+    }
 }

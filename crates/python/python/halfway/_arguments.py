@@ -29,6 +29,7 @@ class Options(TypedDict, total=False):
     color: Color
     faces: str
     normals: str
+    mark_missing_images: bool
     background: Color
     lights: str
     shading: str

@@ -76,7 +76,7 @@ class Mesh:
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], format: str | None = None, *, outside: bool = False) -> Mesh:
-        """Reads a model: .obj, .gltf, .glb, .ply, .stl or .smf. With `outside`, files that it refers to may lie outside
+        """Reads a model: .obj, .gltf, .glb, .ply, .stl, .off, .3mf or .smf. With `outside`, files that it refers to may lie outside
         of its folder."""
         mesh = cls.__new__(cls)
         mesh._mesh = _halfway.Mesh.read(os.fspath(path), format, outside)

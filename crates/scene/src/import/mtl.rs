@@ -2,8 +2,9 @@
 
 use bevy_color::LinearRgba;
 use halfway_lighting::{Fields, InvalidValue, Material};
-use halfway_mesh::{MtlMaterial, SourceMap};
+use halfway_mesh::{AlphaMode, GltfMaps, MetallicRoughness, MtlMaterial, SourceMap};
 
+use super::metallic_roughness::from_metallic_roughness;
 use super::warning::Warning;
 
 /// `d` and `1 − Tr` may differ by this much before they disagree: both are commonly printed with two decimals, and
@@ -39,11 +40,18 @@ const OPACITY_SLACK: f32 = 0.015;
 /// | 3 to 10 | as 2 with a warning: reflection and refraction are left out |
 /// | above 10 | as 2 with a warning |
 ///
+/// A material with `Pr` or `Pm`, of the extension for physically based materials, becomes what
+/// [`from_metallic_roughness`] makes of its `Kd`, `Pr` (roughness; missing: that of `Ns`, else 1), `Pm` (metallic;
+/// missing: 0) and `Ke`, with a warning; `Ka`, `Ks` and `Ns` do not count then.
+///
 /// # Errors
 /// The first key whose value is refused, as `MTL.Kd.green: …`.
 pub fn from_mtl(mtl: &MtlMaterial) -> Result<(Material, Vec<Warning>), InvalidValue> {
     check(mtl)?;
     let mut warnings = Vec::new();
+    if mtl.pr.is_some() || mtl.pm.is_some() {
+        return physically_based(mtl, warnings);
+    }
     let color = |key: Option<[f32; 3]>, missing| key.map_or(missing, |[r, g, b]| LinearRgba::rgb(r, g, b));
     // An image without a factor is to be seen.
     let mapped = |map: &Option<SourceMap>, missing| if map.is_some() { LinearRgba::WHITE } else { missing };
@@ -64,6 +72,33 @@ pub fn from_mtl(mtl: &MtlMaterial) -> Result<(Material, Vec<Warning>), InvalidVa
     Ok((material, warnings))
 }
 
+/// The material of one with `Pr` or `Pm`.
+fn physically_based(mtl: &MtlMaterial, mut warnings: Vec<Warning>) -> Result<(Material, Vec<Warning>), InvalidValue> {
+    warnings.push(Warning::PhysicallyBased);
+    let [r, g, b] = mtl.kd.unwrap_or([Material::DEFAULT.diffuse.red; 3]).map(|channel| channel.min(1.0));
+    let mut material = from_metallic_roughness(&MetallicRoughness {
+        name: mtl.name.clone(),
+        base_color: [r, g, b, 1.0],
+        metallic: mtl.pm.unwrap_or(0.0),
+        roughness: mtl.pr.or(mtl.ns.map(roughness_from_shininess)).unwrap_or(1.0),
+        emissive: mtl.ke.unwrap_or(if mtl.maps.ke.is_some() { [1.0; 3] } else { [0.0; 3] }),
+        double_sided: false,
+        unlit: false,
+        alpha: AlphaMode::Opaque,
+        maps: GltfMaps::default(),
+    })?;
+    material.opacity = opacity(mtl, &mut warnings);
+    apply_illum(mtl.illum.unwrap_or(2), &mut material, &mut warnings);
+    material.validate()?;
+    Ok((material, warnings))
+}
+
+/// The roughness whose highlight has this exponent: the inverse of
+/// [`shininess_from_roughness`](super::shininess_from_roughness).
+fn roughness_from_shininess(n: f32) -> f32 {
+    (2.0 / (n + 2.0)).powf(0.25)
+}
+
 fn check(mtl: &MtlMaterial) -> Result<(), InvalidValue> {
     let fields = Fields::for_owner("MTL");
     for (key, value) in [("Ka", mtl.ka), ("Kd", mtl.kd), ("Ks", mtl.ks), ("Ke", mtl.ke)] {
@@ -71,6 +106,9 @@ fn check(mtl: &MtlMaterial) -> Result<(), InvalidValue> {
     }
     for (key, value) in [("Ns", mtl.ns), ("d", mtl.d), ("Tr", mtl.tr)] {
         value.map_or(Ok(()), |number| fields.non_negative(key, number))?;
+    }
+    for (key, value) in [("Pr", mtl.pr), ("Pm", mtl.pm)] {
+        value.map_or(Ok(()), |number| fields.unit_interval(key, number))?;
     }
     Ok(())
 }

@@ -42,6 +42,11 @@ pub enum Warning {
         /// The number given.
         value: f32,
     },
+    /// A physically based material.
+    #[error(
+        "Pr and Pm, roughness and metallic, become the nearest diffuse color and highlight; Ka, Ks and Ns are not used"
+    )]
+    PhysicallyBased,
     /// A highlight without an exponent.
     #[error("Ks is given without Ns; shininess {shininess:?} is used")]
     NoShininess {

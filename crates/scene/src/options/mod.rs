@@ -83,6 +83,8 @@ options! {
     faces: Faces = parse::faces,
     /// The normals of all objects.
     normals: Normals = parse::normals,
+    /// Whether a checker is shown where an image of a model is missing or broken.
+    mark_missing_images: bool = parse::switch,
     /// The background.
     background: Background = parse::background,
     /// The lights, which follow the camera.
@@ -173,6 +175,7 @@ impl SceneOptions {
             }
             object.faces = self.faces.or(object.faces);
             object.normals = self.normals.unwrap_or(object.normals);
+            object.mark_missing_images |= self.mark_missing_images == Some(true);
         }
         if let Some(Background { above, below, opacity }) = self.background {
             (scene.background, scene.background_below, scene.background_opacity) = (above, below, opacity);

@@ -200,7 +200,7 @@ pub(super) const OBJECTS: &[BadEntry] = &[
     (
         r#""mesh": {"path": "a.fbx"}"#,
         32,
-        ".mesh.path`: is a.fbx; expected a file that ends in .smf, .obj, .gltf, .glb, .ply or .stl",
+        ".mesh.path`: is a.fbx; expected a file that ends in .smf, .obj, .gltf, .glb, .ply, .stl, .off or .3mf (Blender, or `assimp export` of Assimp, converts it to glb)",
     ),
     (r#""mesh": {"path": ""}"#, 32, ".mesh.path`: is ; expected a file that ends in"),
     (

@@ -147,6 +147,28 @@ fn mtl_values_are_taken_unchanged() {
     }
 }
 
+/// Of the extension for physically based materials, which is read as glTF is.
+#[test]
+fn mtl_roughness_and_metallic_become_those_of_gltf() {
+    for (pr, pm, ns, expected) in [
+        (Some(0.3), Some(1.0), None, (1.0, 0.3)),
+        (Some(0.3), None, Some(5.0), (0.0, 0.3)),
+        // 2/r⁴ − 2 = 30.
+        (None, Some(0.5), Some(30.0), (0.5, 0.5)),
+        (None, Some(0.5), None, (0.5, 1.0)),
+    ] {
+        let mtl = MtlMaterial { kd: Some(KD), pr, pm, ns, ks: Some([9.0; 3]), d: Some(0.25), ..MtlMaterial::default() };
+        let (found, warnings) = from_mtl(&mtl).expect("valid numbers");
+        assert_eq!(warnings, [Warning::PhysicallyBased]);
+        let (metallic, roughness) = expected;
+        let [r, g, b] = KD;
+        let gltf = MetallicRoughness { base_color: [r, g, b, 1.0], metallic, roughness, ..bare() };
+        let expected = Material { opacity: 0.25, ..from_metallic_roughness(&gltf).expect("valid numbers") };
+        assert!((found.shininess / expected.shininess - 1.0).abs() < 1e-5, "{found:?}");
+        assert_eq!(Material { shininess: expected.shininess, ..found }, expected);
+    }
+}
+
 #[test]
 fn mtl_opacity() {
     let disagree = |d, tr| Warning::OpacityDisagrees { d, tr };

@@ -1,10 +1,11 @@
 //! The images that a scene file names are on its objects, and what is wrong with them is said by name.
 
 use bevy_app::App;
+use bevy_color::LinearRgba;
 use bevy_ecs::query::With;
 use bevy_transform::TransformPlugin;
 use halfway_asset::Assets;
-use halfway_lighting::AlphaMode;
+use halfway_lighting::{AlphaMode, Material};
 use halfway_mesh::{Mesh3d, MeshPlugin};
 use halfway_scene::{SceneError, SceneFile, spawn};
 use halfway_texture::{
@@ -50,6 +51,34 @@ fn an_unreadable_image_is_a_warning_and_a_checker() {
                 assert!(spawned.warnings[0].starts_with("objects[0].maps.color: "), "{:?}", spawned.warnings);
                 assert_eq!(texture, Pyramid::missing());
             }
+        }
+    }
+    std::fs::remove_dir_all(&dir).unwrap();
+}
+
+/// An image of a model that is missing or broken leaves its material as it is, and a checker where that is asked for.
+#[test]
+fn a_missing_image_of_a_model_leaves_its_material() {
+    let dir = std::env::temp_dir().join(format!("halfway-scene-missing-{}", std::process::id()));
+    std::fs::create_dir_all(&dir).unwrap();
+    std::fs::write(dir.join("broken.png"), b"no image").unwrap();
+    let square = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nusemtl p\nf 1/1 2/1 3/1\n";
+    std::fs::write(dir.join("m.obj"), square).unwrap();
+    for (file, says) in [("none.png", "cannot be read"), ("broken.png", "is no image")] {
+        std::fs::write(dir.join("m.mtl"), format!("newmtl p\nKd 0.5 0.25 1\nmap_Kd {file}\nmap_Ks {file}\n")).unwrap();
+        for mark in [false, true] {
+            let mut app = App::new();
+            app.add_plugins((MeshPlugin, TexturePlugin, TransformPlugin));
+            let text = format!(r#"{{"objects": [{{"mesh": {{"path": "m.obj"}}, "mark_missing_images": {mark}}}]}}"#);
+            let scene = SceneFile::from_json(&text, "test").expect("a scene");
+            let spawned = spawn(&scene, &dir, app.world_mut()).unwrap();
+            assert!(spawned.warnings.iter().any(|warning| warning.contains(says)), "{:?}", spawned.warnings);
+            let world = app.world_mut();
+            let (material, maps) = world.query::<(&Material, Option<&Maps>)>().single(world).expect("one part");
+            assert_eq!(material.diffuse, LinearRgba::rgb(0.5, 0.25, 1.0), "{file}");
+            // White where there is an image.
+            assert_eq!(material.specular, if mark { LinearRgba::WHITE } else { LinearRgba::BLACK }, "{file}");
+            assert_eq!(maps.is_some(), mark, "{file}");
         }
     }
     std::fs::remove_dir_all(&dir).unwrap();
@@ -125,11 +154,11 @@ fn the_images_of_models_are_on_their_parts() {
 
     std::fs::write(dir.join("a.mtl"), "newmtl a\nmap_Kd gone.png\n").unwrap();
     let (maps, warnings) = of_model(&dir, "a.obj");
-    assert_eq!(maps[0].1, Pyramid::missing());
+    assert!(maps.is_empty(), "{maps:?}");
     assert!(warnings.len() == 1 && warnings[0].contains("gone.png"), "{warnings:?}");
     std::fs::write(dir.join("a.mtl"), "newmtl a\nmap_Kd ../gone.png\n").unwrap();
     let (maps, warnings) = of_model(&dir, "a.obj");
-    assert!(maps[0].1 == Pyramid::missing() && warnings[0].contains("outside the folder"), "{warnings:?}");
+    assert!(maps.is_empty() && warnings[0].contains("outside the folder"), "{warnings:?}");
 
     let gltf = r#"{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "extensionsUsed": ["KHR_texture_transform"],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 0, "TEXCOORD_0": 1}, "material": 0}]}],

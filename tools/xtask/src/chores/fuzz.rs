@@ -130,7 +130,11 @@ fn fuzzed(target: &str, seconds: u32) -> Result<Counts> {
 
 /// The dictionary of a target: binary glTF is glTF inside.
 fn language(target: &str) -> &str {
-    if target.starts_with("glb") { "gltf" } else { target }
+    match target {
+        "glb" | "glb_chunks" => "gltf",
+        "threemf_model" => "threemf",
+        other => other,
+    }
 }
 
 /// The file that the fuzzer wrote the failing input to.

@@ -480,22 +480,15 @@ impl Obj {
         let mut materials = Vec::new();
         let mut seen = HashSet::new();
         for rest in &self.libraries {
-            // A name may have spaces, and a statement may have several names.
+            // A name may have spaces, and a statement may have several names. Some programs write backslashes.
+            let rest = &rest.replace('\\', "/");
             let names: Vec<&str> = match around.find(rest) {
                 Some(whole) if whole.exists() => vec![rest],
                 _ => rest.split_ascii_whitespace().take_while(|word| !word.starts_with('#')).collect(),
             };
             for name in names {
-                if !seen.insert(name) {
-                    continue;
-                }
-                let Some(library) = around.find(name) else {
-                    warnings.push(format!("{}: outside the folder of the model, not read", abridged(name, "")));
-                    continue;
-                };
-                match around.open(&library) {
-                    Ok(reader) => warnings.extend(mtl::parse(reader, around, &mut materials)?),
-                    Err(error) => warnings.push(error.to_string()),
+                if seen.insert(name.to_owned()) {
+                    mtl::read_library(name, around, &mut materials, warnings)?;
                 }
             }
         }

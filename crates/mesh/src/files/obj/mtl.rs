@@ -9,50 +9,139 @@ use crate::files::source::{ModelFolder, Reader};
 use crate::files::text::{Skipped, Statement, Statements, abridged};
 use crate::{MtlMaps, MtlMaterial, SourceChannel, SourceMap, SourceMaterial, SourceWrap};
 
-/// Appends the materials of an MTL file; skipped statements are warnings.
-///
-/// - `Ka Kd Ks Ke`: three finite numbers, or one for all three; spectra (`spectral`, `xyz`) are skipped with a warning.
-/// - `Ns d Tr`: one finite number; `d -halo` is skipped with a warning.
-/// - `illum`: a number from 0 to 255.
-/// - `map_Kd map_Ks map_Ke map_d map_Ns norm map_Bump` (also `map_bump`, `bump`): options `-s -o -clamp -imfchan`, of
-///   bumps `-bm`, and a file; other options are skipped with a warning. An unreadable image is a warning.
-/// - Other textures are skipped with a warning, all other statements in silence.
-pub(super) fn parse(
-    reader: Reader,
+/// Appends the materials of the library that an OBJ file calls `name`. One that is missing, or may not be read, is a
+/// warning.
+pub(super) fn read_library(
+    name: &str,
     around: ModelFolder,
     materials: &mut Vec<SourceMaterial>,
-) -> Result<Vec<String>, LoadError> {
-    let mut images = HashMap::new();
+    warnings: &mut Vec<String>,
+) -> Result<(), LoadError> {
+    let Some(library) = around.find(name) else {
+        warnings.push(format!("{}: outside the folder of the model, not read", abridged(name, "")));
+        return Ok(());
+    };
+    match around.open(&library) {
+        Ok(reader) => {
+            let beside = name.rfind('/').map_or("", |slash| &name[..=slash]);
+            warnings.extend(parse(reader, &Images { around, beside }, materials)?);
+        }
+        Err(error) => warnings.push(error.to_string()),
+    }
+    Ok(())
+}
+
+/// Appends the materials of an MTL file. A statement that is malformed or skipped is a warning.
+///
+/// - `Ka Kd Ks Ke`: three numbers from 0 on, or one for all three; spectra (`spectral`, `xyz`) are skipped.
+/// - `Ns d Tr`: a number from 0 on; `d -halo` is skipped.
+/// - `Pr Pm`: a number from 0 to 1.
+/// - `illum`: a number from 0 to 255.
+/// - `map_Kd map_Ks map_Ke map_d map_Ns norm map_Bump` (also `map_bump`, `bump`): options `-s -o -clamp -imfchan`, of
+///   bumps `-bm`, and a file; other options are skipped. `map_Ka` may repeat `map_Kd`, whose image multiplies `Ka`, too.
+/// - Other textures and statements are skipped. `Ni` and `sharpness` say nothing without refraction and reflection, of
+///   which `illum` warns, and are skipped in silence, as is a `Tf` of 1.
+fn parse(reader: Reader, images: &Images, materials: &mut Vec<SourceMaterial>) -> Result<Vec<String>, LoadError> {
+    let mut read = HashMap::new();
     let path = reader.path().to_owned();
     let mut lines = Statements::new(reader, false);
     let mut skipped = Skipped::default();
-    let mut material: Option<MtlMaterial> = None;
+    let mut current: Option<Draft> = None;
     while let Some(statement) = lines.next()? {
         if statement.keyword == "newmtl" {
+            materials.extend(current.take().map(|draft| draft.finish(&mut skipped)));
             if statement.rest.is_empty() {
-                return Err(statement.unexpected("`newmtl` and a name is"));
+                leave_out(statement.unexpected("`newmtl` and a name is"), statement.line, &mut skipped)?;
+            } else {
+                current = Some(Draft::new(statement.rest));
             }
-            let begun = MtlMaterial { name: statement.rest.to_owned(), ..MtlMaterial::default() };
-            materials.extend(material.replace(begun).map(SourceMaterial::Mtl));
-        } else if let Some(place) = map_place(statement.keyword) {
-            let Some(material) = &mut material else {
-                return Err(statement.unexpected("`newmtl` and a name before it is"));
-            };
-            if let Some(map) = map(&statement, around, &mut images, &mut skipped) {
-                *place(&mut material.maps) = Some(map);
+        } else if matches!(statement.keyword, "Ni" | "sharpness") {
+        } else if let Some(draft) = &mut current {
+            if let Some(place) = map_place(statement.keyword) {
+                if let Some(map) = map(&statement, images, &mut read, &mut skipped) {
+                    *place(&mut draft.material.maps) = Some(map);
+                }
+            } else if statement.keyword == "map_Ka" {
+                draft.ambient = Some((statement.line, image_name(&statement)));
+            } else if let Err(error) = set(&mut draft.material, &statement, &mut skipped) {
+                leave_out(error, statement.line, &mut skipped)?;
             }
-        } else if is_texture(statement.keyword) {
-            skipped.add(statement.line, format!("the texture `{}` is skipped", statement.keyword));
-        } else if matches!(statement.keyword, "Ka" | "Kd" | "Ks" | "Ke" | "Ns" | "d" | "Tr" | "illum") {
-            let Some(material) = &mut material else {
-                return Err(statement.unexpected("`newmtl` and a name before it is"));
-            };
-            set(material, &statement, &mut skipped)?;
+        } else {
+            leave_out(statement.unexpected("`newmtl` and a name before it is"), statement.line, &mut skipped)?;
         }
     }
-    materials.extend(material.map(SourceMaterial::Mtl));
+    materials.extend(current.map(|draft| draft.finish(&mut skipped)));
     lines.warn_of_encoding(&mut skipped);
     Ok(skipped.warnings(&path))
+}
+
+/// Turns the error of a statement into a warning.
+fn leave_out(error: LoadError, line: usize, skipped: &mut Skipped) -> Result<(), LoadError> {
+    let LoadError::Line { found, expected, .. } = error else { return Err(error) };
+    skipped.add(line, format!("{found}; {expected} expected, and the statement is skipped"));
+    Ok(())
+}
+
+/// A material, as far as it was read.
+struct Draft {
+    material: MtlMaterial,
+    /// The line of `map_Ka`, and its file.
+    ambient: Option<(usize, String)>,
+}
+
+impl Draft {
+    fn new(name: &str) -> Self {
+        Self { material: MtlMaterial { name: name.to_owned(), ..MtlMaterial::default() }, ambient: None }
+    }
+
+    fn finish(self, skipped: &mut Skipped) -> SourceMaterial {
+        let Self { material, ambient } = self;
+        // The image of `map_Kd` multiplies the ambient reflectance, too.
+        if let Some((line, name)) = ambient
+            && material.maps.kd.as_ref().is_none_or(|kd| kd.name != name)
+        {
+            skipped.add(line, "the texture `map_Ka` is skipped");
+        }
+        SourceMaterial::Mtl(material)
+    }
+}
+
+/// Where the images of a library are looked for.
+struct Images<'a> {
+    around: ModelFolder<'a>,
+    /// The folder of the library as seen from the model's, with a slash at its end; empty for the same.
+    beside: &'a str,
+}
+
+impl Images<'_> {
+    /// The bytes of an image, beside the library or beside the model; of a name with folders that lead nowhere, those of
+    /// the file of that name there. What is to be said of it is added.
+    fn read(&self, name: &str, statement: &Statement, skipped: &mut Skipped) -> Arc<[u8]> {
+        let (line, keyword) = (statement.line, statement.keyword);
+        let last = name.rsplit('/').next().unwrap_or(name);
+        let at_hand = |name: &str| {
+            let [library, model] = [self.beside, ""].map(|folder| self.around.find(&format!("{folder}{name}")));
+            [library, model].into_iter().flatten().find(|path| path.is_file())
+        };
+        let found = at_hand(name).or_else(|| {
+            let found = at_hand(last)?;
+            let name = abridged(name, "");
+            skipped.add(line, format!("the texture {name} of `{keyword}` is not there; {} is read", found.display()));
+            Some(found)
+        });
+        let Some(path) = found.or_else(|| self.around.find(name)) else {
+            let name = abridged(name, "");
+            skipped.add(line, format!("the texture {name} is outside the folder of the model, not read"));
+            return Arc::from([]);
+        };
+        self.around.open(&path).and_then(Reader::whole).map_or_else(
+            |error| {
+                skipped.add(line, format!("the texture of `{keyword}` cannot be read: {error}"));
+                Arc::from([])
+            },
+            Arc::from,
+        )
+    }
 }
 
 /// The field for the image of a statement, if it is read.
@@ -153,33 +242,18 @@ impl MapOptions {
 /// The image of a statement. v runs upward in the file, downward in a mesh.
 fn map(
     statement: &Statement,
-    around: ModelFolder,
-    images: &mut HashMap<String, Arc<[u8]>>,
+    images: &Images,
+    read: &mut HashMap<String, Arc<[u8]>>,
     skipped: &mut Skipped,
 ) -> Option<SourceMap> {
     let mut words = statement.words().peekable();
     let MapOptions { scale, offset, clamp, amount, channel } = MapOptions::read(&mut words, statement, skipped);
-    let (line, keyword) = (statement.line, statement.keyword);
-    let name = words.collect::<Vec<_>>().join(" ").replace('\\', "/");
+    let name = file_name(words);
     if name.is_empty() {
-        skipped.add(line, format!("`{keyword}` without a file is skipped"));
+        skipped.add(statement.line, format!("`{}` without a file is skipped", statement.keyword));
         return None;
     }
-    let bytes = images.entry(name.clone()).or_insert_with(|| {
-        let read = around.find(&name).map(|path| around.open(&path).and_then(Reader::whole));
-        match read {
-            Some(Ok(bytes)) => bytes.into(),
-            Some(Err(error)) => {
-                skipped.add(line, format!("the texture of `{keyword}` cannot be read: {error}"));
-                Arc::from([])
-            }
-            None => {
-                let name = abridged(&name, "");
-                skipped.add(line, format!("the texture {name} is outside the folder of the model, not read"));
-                Arc::from([])
-            }
-        }
-    });
+    let bytes = read.entry(name.clone()).or_insert_with(|| images.read(&name, statement, skipped));
     let wrap = if clamp { SourceWrap::Clamp } else { SourceWrap::Repeat };
     // 1 − (s·(1 − v) + o), for v that runs downward.
     Some(SourceMap {
@@ -190,6 +264,18 @@ fn map(
         channel,
         ..SourceMap::new(name, Arc::clone(bytes))
     })
+}
+
+/// The words of a file's name, with the slashes that every system knows.
+fn file_name<'a>(words: impl Iterator<Item = &'a str>) -> String {
+    words.collect::<Vec<_>>().join(" ").replace('\\', "/")
+}
+
+/// The file of a statement whose options say nothing here.
+fn image_name(statement: &Statement) -> String {
+    let mut words = statement.words().peekable();
+    MapOptions::read(&mut words, statement, &mut Skipped::default());
+    file_name(words)
 }
 
 fn is_texture(keyword: &str) -> bool {
@@ -206,14 +292,22 @@ fn set(material: &mut MtlMaterial, statement: &Statement, skipped: &mut Skipped)
         "Ns" => material.ns = scalar(statement, skipped)?.or(material.ns),
         "d" => material.d = scalar(statement, skipped)?.or(material.d),
         "Tr" => material.tr = scalar(statement, skipped)?.or(material.tr),
-        _ => {
+        "Pr" => material.pr = Some(fraction(statement)?),
+        "Pm" => material.pm = Some(fraction(statement)?),
+        "illum" => {
             const EXPECTED: &str = "`illum` and a number from 0 to 255 is";
             let [number] = statement.exactly(EXPECTED)?;
             material.illum = Some(number.parse().map_err(|_| statement.unexpected(EXPECTED))?);
         }
+        "Tf" if statement.words().all(|word| word.parse() == Ok(1.0)) => {}
+        texture if is_texture(texture) => skipped.add(statement.line, format!("the texture `{texture}` is skipped")),
+        _ => skipped.add_statement(statement),
     }
     Ok(())
 }
+
+/// The largest channel of a colour, as materials have it.
+const BRIGHTEST: f32 = 1e12;
 
 fn color(statement: &Statement, skipped: &mut Skipped) -> Result<Option<[f32; 3]>, LoadError> {
     if let Some(kind @ ("spectral" | "xyz")) = statement.words().next() {
@@ -221,6 +315,9 @@ fn color(statement: &Statement, skipped: &mut Skipped) -> Result<Option<[f32; 3]
         return Ok(None);
     }
     let ([r, g, b], count) = statement.numbers(&[1, 3], "a colour of three numbers is")?;
+    if [r, g, b].iter().any(|channel| !(0.0..=BRIGHTEST).contains(channel)) {
+        return Err(statement.unexpected("a colour of three numbers from 0 to 10¹² is"));
+    }
     Ok(Some(if count == 1 { [r; 3] } else { [r, g, b] }))
 }
 
@@ -230,5 +327,18 @@ fn scalar(statement: &Statement, skipped: &mut Skipped) -> Result<Option<f32>, L
         return Ok(None);
     }
     let [word] = statement.exactly("one number is")?;
-    statement.number(word).map(Some)
+    let number = statement.number(word)?;
+    if number < 0.0 {
+        return Err(statement.unexpected("a number from 0 on is"));
+    }
+    Ok(Some(number))
+}
+
+fn fraction(statement: &Statement) -> Result<f32, LoadError> {
+    let [word] = statement.exactly("one number is")?;
+    let number = statement.number(word)?;
+    if !(0.0..=1.0).contains(&number) {
+        return Err(statement.unexpected("a number from 0 to 1 is"));
+    }
+    Ok(number)
 }

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use glam::{Mat4, Vec2, Vec3};
+use glam::{DVec3, Mat4, Vec2, Vec3};
 
 use crate::files::LoadError;
 use crate::numbering::Numbering;
-use crate::{Mesh, Part};
+use crate::{Mesh, Part, origin_of_box};
 
 /// The elements that an attribute's values belong to, in order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,7 +42,9 @@ struct Group {
 /// The contents of the file.
 #[derive(Default)]
 pub(super) struct SmfContent {
-    pub(super) positions: Vec<Vec3>,
+    pub(super) positions: Vec<DVec3>,
+    /// The point that the positions of meshes are counted from.
+    origin: DVec3,
     pub(super) normals: BoundValues<Vec3>,
     pub(super) colors: BoundValues<Vec3>,
     pub(super) uvs: BoundValues<Vec2>,
@@ -80,9 +82,13 @@ impl SmfContent {
     }
 
     /// A part for each group that has triangles, and warnings of missing attributes that were filled in.
-    pub(super) fn into_parts(mut self, path: &Path) -> Result<(Vec<Part>, Vec<String>), LoadError> {
+    pub(super) fn into_parts(mut self, path: &Path) -> Result<(Vec<Part>, DVec3, Vec<String>), LoadError> {
         let mut warnings = Vec::new();
         self.warn_of_counts(path, &mut warnings);
+        let used = || self.indices.iter().map(|&corner| self.positions[corner as usize]);
+        let extent = used().reduce(DVec3::min).zip(used().reduce(DVec3::max));
+        let origin = extent.map_or(DVec3::ZERO, |(min, max)| origin_of_box(min, max));
+        self.origin = origin;
         let groups = std::mem::take(&mut self.groups);
         let ends: Vec<usize> =
             groups.iter().skip(1).map(|group| group.triangle).chain([self.indices.len() / 3]).collect();
@@ -105,7 +111,7 @@ impl SmfContent {
             }
             parts.push(Part { name: group.name, mesh, material: None, world_from_part: Mat4::IDENTITY });
         }
-        Ok((parts, warnings))
+        Ok((parts, origin, warnings))
     }
 
     /// Whether faces have values of their own, so that they share no vertices.
@@ -157,6 +163,7 @@ impl SmfContent {
             colors: self.colors.picked(&sources, &firsts, face_of, Vec3::ONE),
             uvs: self.uvs.picked(&sources, &firsts, face_of, Vec2::ZERO),
             indices,
+            origin: self.origin,
             ..Self::default()
         }
     }
@@ -164,8 +171,10 @@ impl SmfContent {
     /// The mesh, and how many normals were filled in.
     fn into_mesh(mut self) -> Result<(Mesh, usize), crate::MeshError> {
         let vertices = self.positions.len();
+        // A vertex that nothing uses may be too far from the others.
+        let placed = |p: &DVec3| Some((*p - self.origin).as_vec3()).filter(|p| p.is_finite()).unwrap_or_default();
         let (mesh, report) = Mesh::from_parts_reported(
-            self.positions,
+            self.positions.iter().map(placed).collect(),
             self.normals.filled(vertices, Vec3::ZERO),
             self.uvs.filled(vertices, Vec2::ZERO),
             self.indices,

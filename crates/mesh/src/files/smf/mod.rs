@@ -4,7 +4,7 @@
 mod assemble;
 mod scope;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use self::assemble::{Binding, SmfContent};
 use self::scope::Scopes;
@@ -30,10 +30,10 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     smf.check_furthest(path)?;
     lines.warn_of_encoding(&mut smf.skipped);
     smf.scopes.warn_of_open(lines.line(), &mut smf.skipped);
-    let (parts, more) = smf.shape.into_parts(path)?;
+    let (parts, origin, more) = smf.shape.into_parts(path)?;
     let mut warnings = smf.skipped.warnings(path);
     warnings.extend(more);
-    Ok(Model { parts, warnings, ..Model::default() })
+    Ok(Model { origin, parts, warnings, ..Model::default() })
 }
 
 /// The largest vertex number of all faces, and its line.
@@ -90,12 +90,16 @@ impl Smf {
     }
 
     fn vertex(&mut self, statement: &Statement) -> Result<(), LoadError> {
-        let ([x, y, z, w], count) = statement.numbers(&[3, 4], "`v` and three numbers are")?;
-        let mut p = Vec3::new(x, y, z);
+        let (_, count) = statement.numbers::<4>(&[3, 4], "`v` and three numbers are")?;
+        let mut numbers = [0.0_f64; 4];
+        for (number, word) in numbers.iter_mut().zip(statement.words()) {
+            *number = word.parse().map_err(|_| statement.unexpected_word(word, "a finite number is"))?;
+        }
+        let [x, y, z, w] = numbers;
+        let mut p = DVec3::new(x, y, z);
         if count == 4 {
-            // In f64, so that only the quotient is rounded.
-            p = (p.as_dvec3() / f64::from(w)).as_vec3();
-            if !p.is_finite() {
+            p /= w;
+            if !p.as_vec3().is_finite() {
                 return Err(statement.unexpected("a fourth number of `v` by which the others can be divided is"));
             }
         }
@@ -135,11 +139,13 @@ impl Smf {
     fn cut(&mut self, statement: &Statement) -> Result<(), LoadError> {
         let Self { shape, corners, points, skipped, .. } = self;
         points.clear();
+        // Counted from the first, so that they keep their shape far from 0.
+        let mut first: Option<DVec3> = None;
         for &corner in &*corners {
             let Some(p) = shape.positions.get(corner as usize) else {
                 return Err(statement.unexpected("vertices that stand above a face of more than three corners are"));
             };
-            points.push(*p);
+            points.push((*p - *first.get_or_insert(*p)).as_vec3());
         }
         let clean = polygon::cut(points, |triangle| shape.triangle(triangle.map(|i| corners[i as usize])));
         if !clean {

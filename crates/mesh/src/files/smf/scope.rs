@@ -99,13 +99,13 @@ impl Scopes {
     }
 
     /// A vertex in world space.
-    pub(super) fn place(&self, p: Vec3, statement: &Statement) -> Result<Vec3, LoadError> {
+    pub(super) fn place(&self, p: DVec3, statement: &Statement) -> Result<DVec3, LoadError> {
         let Some(transform) = &self.inner.transform else {
             return Ok(p);
         };
-        let placed: DVec4 = transform.world_from_scope * p.as_dvec3().extend(1.0);
-        let placed = (placed.truncate() / placed.w).as_vec3();
-        if placed.is_finite() {
+        let placed: DVec4 = transform.world_from_scope * p.extend(1.0);
+        let placed = placed.truncate() / placed.w;
+        if placed.as_vec3().is_finite() {
             return Ok(placed);
         }
         Err(statement.unexpected("a vertex that its transform leaves in the range of f32 is"))

@@ -11,7 +11,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum WriteError {
     /// The extension names no format that can be written.
-    #[error("{}: the extension {extension:?} names no format that is written; smf, obj or glb is expected", path.display())]
+    #[error("{}: the extension {extension:?} names no format that is written; smf, obj, glb, gltf, ply or stl is expected", path.display())]
     UnknownExtension {
         /// The file.
         path: PathBuf,
@@ -21,6 +21,12 @@ pub enum WriteError {
     /// Only GLB holds quantised meshes.
     #[error("{}: only .glb holds integers of 16 bits", path.display())]
     NotQuantised {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Only PLY is written in ASCII on demand.
+    #[error("{}: only .ply is binary or ASCII", path.display())]
+    NotAscii {
         /// The file.
         path: PathBuf,
     },

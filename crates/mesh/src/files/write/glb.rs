@@ -1,17 +1,19 @@
-//! Binary glTF 2.0.
+//! glTF 2.0, binary or as text with files beside it.
 
 use std::collections::HashMap;
 use std::io::Write as _;
 use std::path::Path;
 
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
 use serde_json::{Map, Value, json};
 
 use super::file::{WriteError, replace};
+use super::images::{ImageFiles, ending};
 use super::quantise::{Grid, signed, unsigned};
+use crate::files::Format;
 use crate::{
     AlphaMode, Bounds, GltfMaps, LinePart, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera,
-    SourceLight, SourceLightKind, SourceMaterial, SourceProjection,
+    SourceLevels, SourceLight, SourceLightKind, SourceMap, SourceMaterial, SourceProjection, SourceWrap,
 };
 
 const FLOAT: u32 = 5126;
@@ -26,7 +28,9 @@ const LINES: u32 = 1;
 
 /// Writes a node for each part, group of lines, light and camera; parts that share a mesh and a material share it in the file.
 pub(super) fn write(path: &Path, model: &Model, quantised: bool) -> Result<Vec<String>, WriteError> {
-    let mut file = Document { quantised, ..Document::default() };
+    let in_text = Format::from_path(path) == Some(Format::Gltf);
+    let mut file = Document { quantised, in_text, ..Document::default() };
+    let mut maps = Maps::new(path);
     for part in &model.parts {
         file.part(part);
     }
@@ -35,7 +39,20 @@ pub(super) fn write(path: &Path, model: &Model, quantised: bool) -> Result<Vec<S
     }
     file.lights(&model.lights);
     file.cameras(&model.cameras);
-    let json = file.json(model);
+    let materials = model.materials.iter().map(|source| maps.material(source, &mut file)).collect();
+    let mut json = file.json(materials, &maps, model.origin);
+    maps.files.write()?;
+    let mtl = model.materials.iter().filter(|source| matches!(source, SourceMaterial::Mtl(_))).count();
+    let lost = format!("{mtl} MTL materials lose Ka, Ks, illum and what is above 1; Ns becomes a roughness");
+    let mut lost = if mtl > 0 { vec![lost] } else { Vec::new() };
+    lost.extend(maps.files.into_lost());
+    if in_text {
+        let buffer = path.with_extension("bin");
+        replace(&buffer, |out| out.write_all(&file.data))?;
+        json["buffers"][0]["uri"] = json!(uri(&buffer.file_name().unwrap_or_default().to_string_lossy()));
+        replace(path, |out| out.write_all(json.to_string().as_bytes()))?;
+        return Ok(lost);
+    }
     // Chunks are padded to four bytes, the JSON with spaces.
     let mut text = json.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
@@ -54,15 +71,22 @@ pub(super) fn write(path: &Path, model: &Model, quantised: bool) -> Result<Vec<S
         out.write_all(b"BIN\0")?;
         out.write_all(&file.data)
     })?;
-    let mtl = model.materials.iter().filter(|source| matches!(source, SourceMaterial::Mtl(_))).count();
-    let lost = format!("{mtl} MTL materials lose Ka, Ks, illum and what is above 1; Ns becomes a roughness");
-    Ok(if mtl > 0 { vec![lost] } else { Vec::new() })
+    Ok(lost)
+}
+
+/// A file's name as a URI (RFC 3986).
+fn uri(name: &str) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~".contains(&byte);
+    let encode = |byte: u8| if is_plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
+    name.bytes().map(encode).collect()
 }
 
 #[derive(Default)]
 struct Document {
     /// Whether vertices are integers of 16 bits.
     quantised: bool,
+    /// Whether the buffer and the images are files beside this one.
+    in_text: bool,
     /// The binary chunk; every array in it starts at a multiple of four bytes.
     data: Vec<u8>,
     views: Vec<Value>,
@@ -329,18 +353,24 @@ impl Document {
         }
     }
 
-    fn json(&self, model: &Model) -> Value {
+    fn json(&self, materials: Vec<Value>, maps: &Maps, origin: DVec3) -> Value {
+        let mut nodes = self.nodes.clone();
+        let mut roots: Vec<usize> = (0..nodes.len()).collect();
+        if origin != DVec3::ZERO {
+            // Numbers of JSON have 64 bits, those of accessors 32.
+            nodes.push(json!({ "translation": origin.to_array(), "children": roots }));
+            roots = vec![nodes.len() - 1];
+        }
         let mut root = json!({
             "asset": { "version": "2.0", "generator": concat!("halfway ", env!("CARGO_PKG_VERSION")) },
             "scene": 0,
-            "scenes": [{ "nodes": (0..self.nodes.len()).collect::<Vec<_>>() }],
-            "nodes": self.nodes,
+            "scenes": [{ "nodes": roots }],
+            "nodes": nodes,
             "meshes": self.meshes,
             "accessors": self.accessors,
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.data.len() }],
         });
-        let materials: Vec<Value> = model.materials.iter().map(material).collect();
         let has_unlit = materials.iter().any(|material| material.get("extensions").is_some());
         if !materials.is_empty() {
             root["materials"] = json!(materials);
@@ -360,6 +390,17 @@ impl Document {
         if has_unlit {
             used.push("KHR_materials_unlit");
         }
+        for (key, values) in [("images", &maps.images), ("textures", &maps.textures), ("samplers", &maps.samplers)] {
+            if !values.is_empty() {
+                root[key] = json!(values);
+            }
+        }
+        if maps.has_transforms {
+            used.push("KHR_texture_transform");
+        }
+        if maps.has_webp {
+            used.push("EXT_texture_webp");
+        }
         if !used.is_empty() {
             root["extensionsUsed"] = json!(used);
         }
@@ -367,15 +408,149 @@ impl Document {
     }
 }
 
-fn material(source: &SourceMaterial) -> Value {
-    let of_mtl;
-    let pbr = match source {
-        SourceMaterial::MetallicRoughness(pbr) => pbr,
-        SourceMaterial::Mtl(mtl) => {
-            of_mtl = metallic_roughness(mtl);
-            &of_mtl
+/// The images of materials, and how they are looked up.
+struct Maps {
+    files: ImageFiles,
+    images: Vec<Value>,
+    textures: Vec<Value>,
+    samplers: Vec<Value>,
+    /// The images already written, by the address of their bytes.
+    written: HashMap<*const u8, usize>,
+    has_transforms: bool,
+    has_webp: bool,
+}
+
+impl Maps {
+    fn new(path: &Path) -> Self {
+        Self {
+            files: ImageFiles::new(path),
+            images: Vec::new(),
+            textures: Vec::new(),
+            samplers: Vec::new(),
+            written: HashMap::new(),
+            has_transforms: false,
+            has_webp: false,
         }
+    }
+
+    fn material(&mut self, source: &SourceMaterial, file: &mut Document) -> Value {
+        let of_mtl;
+        let pbr = match source {
+            SourceMaterial::MetallicRoughness(pbr) => pbr,
+            SourceMaterial::Mtl(mtl) => {
+                let others = [&mtl.maps.ks, &mtl.maps.d, &mtl.maps.ns, &mtl.maps.bump];
+                others.into_iter().flatten().for_each(|_| {
+                    self.files.lose("images of highlights, opacity or height, which glTF has in other forms");
+                });
+                of_mtl = metallic_roughness(mtl);
+                &of_mtl
+            }
+        };
+        let mut described = material(pbr);
+        if let Some(map) = pbr.maps.base_color.as_ref().and_then(|map| self.texture(map, file)) {
+            described["pbrMetallicRoughness"]["baseColorTexture"] = map;
+        }
+        for (key, map, amount) in [
+            ("emissiveTexture", &pbr.maps.emissive, None),
+            ("occlusionTexture", &pbr.maps.occlusion, Some("strength")),
+            ("normalTexture", &pbr.maps.normal, Some("scale")),
+        ] {
+            let Some(map) = map else { continue };
+            let Some(mut texture) = self.texture(map, file) else { continue };
+            if let Some(amount) = amount {
+                texture[amount] = json!(map.amount);
+            }
+            described[key] = texture;
+        }
+        described
+    }
+
+    /// The reference to an image; `None` for one that the format cannot hold.
+    fn texture(&mut self, map: &SourceMap, file: &mut Document) -> Option<Value> {
+        let kind = match ending(&map.bytes) {
+            Some("png") => "image/png",
+            Some("jpg") => "image/jpeg",
+            Some("webp") => "image/webp",
+            None => {
+                self.files.lose("images that could not be read");
+                return None;
+            }
+            Some(_) => {
+                self.files.lose("images that are neither PNG nor JPEG nor WebP");
+                return None;
+            }
+        };
+        let image = match self.written.get(&map.bytes.as_ptr()) {
+            Some(&image) => image,
+            None => {
+                let image = self.image(map, kind, file)?;
+                self.images.push(image);
+                self.written.insert(map.bytes.as_ptr(), self.images.len() - 1);
+                self.images.len() - 1
+            }
+        };
+        let mut texture = json!({ "sampler": place_in(&mut self.samplers, sampler(map)) });
+        if kind == "image/webp" {
+            self.has_webp = true;
+            texture["extensions"] = json!({ "EXT_texture_webp": { "source": image } });
+        } else {
+            texture["source"] = json!(image);
+        }
+        let mut reference = json!({ "index": place_in(&mut self.textures, texture) });
+        if map.uv_set != 0 {
+            reference["texCoord"] = json!(map.uv_set);
+        }
+        let SourceMap { offset, rotation, scale, .. } = map;
+        let plain = SourceMap::new(String::new(), std::sync::Arc::from([]));
+        if (*offset, *rotation, *scale) != (plain.offset, plain.rotation, plain.scale) {
+            self.has_transforms = true;
+            reference["extensions"] =
+                json!({ "KHR_texture_transform": { "offset": offset, "rotation": rotation, "scale": scale } });
+        }
+        Some(reference)
+    }
+
+    fn image(&mut self, map: &SourceMap, kind: &str, file: &mut Document) -> Option<Value> {
+        if file.in_text {
+            return Some(json!({ "uri": uri(&self.files.name(map)?) }));
+        }
+        let start = file.data.len();
+        file.data.extend_from_slice(&map.bytes);
+        file.views.push(json!({ "buffer": 0, "byteOffset": start, "byteLength": map.bytes.len() }));
+        // What follows starts at a multiple of four bytes.
+        file.data.resize(file.data.len().next_multiple_of(4), 0);
+        Some(json!({ "bufferView": file.views.len() - 1, "mimeType": kind }))
+    }
+}
+
+/// The index of a value in a list, which it is added to if it is not there.
+fn place_in(values: &mut Vec<Value>, value: Value) -> usize {
+    values.iter().position(|other| *other == value).unwrap_or_else(|| {
+        values.push(value);
+        values.len() - 1
+    })
+}
+
+/// The filters and the wrapping of an image, by the numbers of OpenGL.
+fn sampler(map: &SourceMap) -> Value {
+    let wrap = map.wrap.map(|wrap| match wrap {
+        SourceWrap::Repeat => 10497,
+        SourceWrap::Mirror => 33648,
+        SourceWrap::Clamp => 33071,
+    });
+    let minify = match (map.smooth_levels, map.levels) {
+        (false, SourceLevels::None) => 9728,
+        (true, SourceLevels::None) => 9729,
+        (false, SourceLevels::Nearest) => 9984,
+        (true, SourceLevels::Nearest) => 9985,
+        (false, SourceLevels::Linear) => 9986,
+        (true, SourceLevels::Linear) => 9987,
     };
+    let magnify = if map.smooth { 9729 } else { 9728 };
+    json!({ "magFilter": magnify, "minFilter": minify, "wrapS": wrap[0], "wrapT": wrap[1] })
+}
+
+fn material(pbr: &MetallicRoughness) -> Value {
     let mut described = json!({
         "pbrMetallicRoughness": {
             "baseColorFactor": pbr.base_color,
@@ -402,22 +577,28 @@ fn material(source: &SourceMaterial) -> Value {
     described
 }
 
-/// The nearest glTF material: no metal, with the roughness r for which the exponent 2/r⁴ − 2 of a Blinn–Phong lobe is
+/// The nearest glTF material: with `Pr` and `Pm` where it has them, else no metal, with the roughness r for which the exponent 2/r⁴ − 2 of a Blinn–Phong lobe is
 /// the material's (Walter et al. 2007, "Microfacet models for refraction", α = r²).
 fn metallic_roughness(mtl: &MtlMaterial) -> MetallicRoughness {
     let [r, g, b] = mtl.kd.unwrap_or([0.8; 3]).map(|x| x.clamp(0.0, 1.0));
     let opacity = mtl.d.or(mtl.tr.map(|tr| 1.0 - tr)).unwrap_or(1.0).clamp(0.0, 1.0);
-    let roughness = mtl.ns.map_or(1.0, |ns| (2.0 / (ns.max(0.0) + 2.0)).powf(0.25));
+    let of_highlight = |ns: f32| (2.0 / (ns.max(0.0) + 2.0)).powf(0.25);
     MetallicRoughness {
         name: mtl.name.clone(),
         base_color: [r, g, b, opacity],
-        metallic: 0.0,
-        roughness,
-        emissive: mtl.ke.unwrap_or([0.0; 3]).map(|x| x.clamp(0.0, 1.0)),
+        metallic: mtl.pm.unwrap_or(0.0),
+        roughness: mtl.pr.or(mtl.ns.map(of_highlight)).unwrap_or(1.0),
+        // An image without a factor is to be seen.
+        emissive: mtl.ke.unwrap_or(if mtl.maps.ke.is_some() { [1.0; 3] } else { [0.0; 3] }).map(|x| x.clamp(0.0, 1.0)),
         double_sided: false,
         unlit: false,
         alpha: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
         specular_glossiness: None,
-        maps: GltfMaps::default(),
+        maps: GltfMaps {
+            base_color: mtl.maps.kd.clone(),
+            emissive: mtl.maps.ke.clone(),
+            normal: mtl.maps.norm.clone(),
+            ..GltfMaps::default()
+        },
     }
 }

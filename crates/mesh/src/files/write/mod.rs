@@ -2,10 +2,13 @@
 
 mod file;
 mod glb;
+mod images;
 mod obj;
 mod placed;
+mod ply;
 mod quantise;
 mod smf;
+mod stl;
 
 use std::path::Path;
 
@@ -14,13 +17,15 @@ pub use file::WriteError;
 use super::Format;
 use crate::Model;
 
-/// Writes a model into an SMF, OBJ or GLB file, told by the extension in upper or lower case. OBJ adds an MTL file of
-/// the same name if the model has materials. Each file is written under a temporary name and renamed, so that a
+/// Writes a model into an SMF, OBJ, GLB, glTF, PLY (binary) or STL (binary) file, told by the extension in upper or lower
+/// case. OBJ adds an MTL file of the same name if the model has materials, glTF its buffer, and both the images of the
+/// materials, under the model's name with a number. Each file is written under a temporary name and renamed, so that a
 /// partial file is never seen.
 ///
 /// Returns a sentence for each thing that the format cannot hold. Numbers are written so that they are read back as
 /// the same `f32`; of positions and normals that holds for parts at the origin: SMF and OBJ have no transforms and get
-/// vertices in world space. Texture coordinates of SMF and OBJ run upward, which costs those below 1e-9 their last
+/// vertices in world space, as do PLY and STL. Positions that are counted from [`Model::origin`] are written with the
+/// digits of the world, in PLY as `double`; STL rounds them. Texture coordinates of SMF and OBJ run upward, which costs those below 1e-9 their last
 /// bits. Both get vertex colours as sRGB. See [`load`](crate::load) for an example.
 ///
 /// # Errors
@@ -32,12 +37,43 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
     let mut lost = match Format::from_path(path) {
         Some(Format::Smf) => smf::write(path, model),
         Some(Format::Obj) => obj::write(path, model),
-        Some(Format::Glb) => glb::write(path, model, false),
-        _ => {
+        Some(Format::Gltf | Format::Glb) => glb::write(path, model, false),
+        Some(Format::Ply) => ply::write(path, model, false),
+        Some(Format::Stl) => stl::write(path, model),
+        Some(Format::Off | Format::ThreeMf) | None => {
             let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
             Err(WriteError::UnknownExtension { path: path.to_owned(), extension })
         }
     }?;
+    let has_images = matches!(Format::from_path(path), Some(Format::Obj | Format::Gltf | Format::Glb));
+    lost.extend(lost_images(model).filter(|_| !has_images).into_iter().chain(lost_properties(model)));
+    Ok(lost)
+}
+
+/// Writes a model into a PLY file in ASCII, where [`write()`] writes a binary one.
+///
+/// ```
+/// use glam::Mat4;
+/// use halfway_mesh::{Cuboid, Mesh, Model, Part, write_ascii};
+///
+/// let path = std::env::temp_dir().join(format!("ascii_{}.ply", std::process::id()));
+/// let part = Part { name: String::new(), mesh: Mesh::from(Cuboid::default()), material: None, world_from_part: Mat4::IDENTITY };
+/// let lost = write_ascii(&path, &Model { parts: vec![part], ..Model::default() })?;
+/// assert!(lost.is_empty() && std::fs::read_to_string(&path)?.starts_with("ply\nformat ascii"));
+/// # std::fs::remove_file(path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`write()`], and another extension than `ply`.
+pub fn write_ascii(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
+    if model.is_empty() {
+        return Err(WriteError::NoParts { path: path.to_owned() });
+    }
+    if Format::from_path(path) != Some(Format::Ply) {
+        return Err(WriteError::NotAscii { path: path.to_owned() });
+    }
+    let mut lost = ply::write(path, model, true)?;
     lost.extend(lost_images(model).into_iter().chain(lost_properties(model)));
     Ok(lost)
 }
@@ -73,7 +109,7 @@ pub fn write_quantised(path: &Path, model: &Model) -> Result<(f64, Vec<String>),
     }
     let moved = model.parts.iter().map(|part| quantise::Grid::for_mesh(&part.mesh).largest_error()).fold(0.0, f64::max);
     let mut lost = glb::write(path, model, true)?;
-    lost.extend(lost_images(model).into_iter().chain(lost_properties(model)));
+    lost.extend(lost_properties(model));
     Ok((moved, lost))
 }
 

@@ -4,10 +4,11 @@ use std::collections::HashSet;
 use std::io::{self, Write};
 use std::path::Path;
 
-use glam::{Vec3, Vec4};
+use glam::{DVec3, Vec3, Vec4};
 
 use super::file::{WriteError, replace};
-use super::placed::{Placed, lost_in_text, upward};
+use super::images::ImageFiles;
+use super::placed::{Placed, coordinates, lost_in_text, upward};
 use crate::files::srgb::encoded;
 use crate::{LinePart, Mesh, Model, MtlMaterial, SourceMaterial};
 
@@ -16,11 +17,19 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
     let mut lost = lost_in_text(model);
     let names = unique_names(model);
     let library = path.with_extension("mtl");
+    let mut images = ImageFiles::new(path);
+    let maps: Vec<Vec<String>> = model.materials.iter().map(|source| images.statements(source)).collect();
+    images.write()?;
     if !model.materials.is_empty() {
         replace(&library, |file| {
-            model.materials.iter().zip(&names).try_for_each(|(source, name)| write_material(file, name, source))
+            let mut materials = model.materials.iter().zip(&names).zip(&maps);
+            materials.try_for_each(|((source, name), maps)| {
+                write_material(file, name, source)?;
+                maps.iter().try_for_each(|map| writeln!(file, "{map}"))
+            })
         })?;
     }
+    lost.extend(images.into_lost());
     let renamed = model.materials.iter().zip(&names).filter(|(material, name)| material.name() != *name).count();
     let pbr = model.materials.iter().filter(|source| matches!(source, SourceMaterial::MetallicRoughness(_))).count();
     let with_normals = model.lines.iter().filter(|part| part.lines.normals().is_some()).count();
@@ -32,7 +41,7 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
         ),
         (renamed, "materials get another name"),
         (with_normals, "groups of lines lose their normals"),
-        (pbr, "materials lose their metallic, roughness and alpha mode, and which faces they show"),
+        (pbr, "materials lose their alpha mode, and which faces they show"),
     ] {
         if count > 0 {
             lost.push(format!("{count} {what}"));
@@ -56,7 +65,7 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
                 writeln!(file, "usemtl {name}")?;
                 used = part.material;
             }
-            write_part(file, &part.mesh, placed, &mut first)?;
+            write_part(file, &part.mesh, (placed, model.origin), &mut first)?;
         }
         for (part, positions) in model.lines.iter().zip(&placed_lines) {
             writeln!(file, "o {}", one_line(&part.name))?;
@@ -65,7 +74,7 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
                 writeln!(file, "usemtl {name}")?;
                 used = part.material;
             }
-            write_lines(file, part, positions, &mut first)?;
+            write_lines(file, part, (positions, model.origin), &mut first)?;
         }
         Ok(())
     })?;
@@ -73,8 +82,13 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
 }
 
 /// The vertices, lines and points of a group.
-fn write_lines(file: &mut impl Write, part: &LinePart, positions: &[Vec3], first: &mut [u64; 2]) -> io::Result<()> {
-    write_positions(file, positions, part.lines.colors())?;
+fn write_lines(
+    file: &mut impl Write,
+    part: &LinePart,
+    (positions, origin): (&[Vec3], DVec3),
+    first: &mut [u64; 2],
+) -> io::Result<()> {
+    write_positions(file, (positions, origin), part.lines.colors())?;
     let number = |vertex: &u32| first[0] + u64::from(*vertex);
     for [from, to] in part.lines.segments() {
         writeln!(file, "l {} {}", number(from), number(to))?;
@@ -86,13 +100,18 @@ fn write_lines(file: &mut impl Write, part: &LinePart, positions: &[Vec3], first
     Ok(())
 }
 
-fn write_positions(file: &mut impl Write, positions: &[Vec3], colors: Option<&[Vec4]>) -> io::Result<()> {
+fn write_positions(
+    file: &mut impl Write,
+    (positions, origin): (&[Vec3], DVec3),
+    colors: Option<&[Vec4]>,
+) -> io::Result<()> {
     for (i, p) in positions.iter().enumerate() {
+        let p = coordinates(origin, *p);
         match colors {
-            None => writeln!(file, "v {} {} {}", p.x, p.y, p.z)?,
+            None => writeln!(file, "v {p}")?,
             Some(colors) => {
                 let [r, g, b] = colors[i].truncate().to_array().map(encoded);
-                writeln!(file, "v {} {} {} {r} {g} {b}", p.x, p.y, p.z)?;
+                writeln!(file, "v {p} {r} {g} {b}")?;
             }
         }
     }
@@ -100,8 +119,13 @@ fn write_positions(file: &mut impl Write, positions: &[Vec3], colors: Option<&[V
 }
 
 /// The vertices and faces of a part; `first` are the numbers of its first vertex and texture coordinate.
-fn write_part(file: &mut impl Write, mesh: &Mesh, placed: &Placed, first: &mut [u64; 2]) -> io::Result<()> {
-    write_positions(file, &placed.positions, mesh.colors())?;
+fn write_part(
+    file: &mut impl Write,
+    mesh: &Mesh,
+    (placed, origin): (&Placed, DVec3),
+    first: &mut [u64; 2],
+) -> io::Result<()> {
+    write_positions(file, (&placed.positions, origin), mesh.colors())?;
     for uv in mesh.uvs().unwrap_or_default() {
         writeln!(file, "vt {} {}", uv.x, upward(uv.y))?;
     }
@@ -133,7 +157,8 @@ fn write_material(file: &mut impl Write, name: &str, source: &SourceMaterial) ->
             let [r, g, b, alpha] = pbr.base_color;
             // `illum 0` is the sum of Kd and Ke, whatever the lights.
             let (ke, illum) = if pbr.unlit { (None, Some(0)) } else { (Some(pbr.emissive), None) };
-            of_pbr = MtlMaterial { kd: Some([r, g, b]), ke, d: Some(alpha), illum, ..MtlMaterial::default() };
+            let [pr, pm] = [pbr.roughness, pbr.metallic].map(|factor| (!pbr.unlit).then_some(factor));
+            of_pbr = MtlMaterial { kd: Some([r, g, b]), ke, d: Some(alpha), illum, pr, pm, ..MtlMaterial::default() };
             &of_pbr
         }
     };
@@ -142,7 +167,7 @@ fn write_material(file: &mut impl Write, name: &str, source: &SourceMaterial) ->
             writeln!(file, "{keyword} {r} {g} {b}")?;
         }
     }
-    for (keyword, number) in [("Ns", mtl.ns), ("d", mtl.d), ("Tr", mtl.tr)] {
+    for (keyword, number) in [("Ns", mtl.ns), ("d", mtl.d), ("Tr", mtl.tr), ("Pr", mtl.pr), ("Pm", mtl.pm)] {
         if let Some(number) = number {
             writeln!(file, "{keyword} {number}")?;
         }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{DMat3, Mat4, Vec3};
+use glam::{DMat3, DVec3, Mat4, Vec3};
 
 use super::file::WriteError;
 use crate::{LinePart, Model, Part};
@@ -56,12 +56,31 @@ impl Placed {
     }
 }
 
+/// A position as text: that of the world, `origin + p`. Far from 0 it has as many digits as give `p` again.
+pub(super) fn coordinates(origin: DVec3, p: Vec3) -> String {
+    if origin == DVec3::ZERO {
+        return format!("{} {} {}", p.x, p.y, p.z);
+    }
+    let [x, y, z] = [0, 1, 2].map(|axis| coordinate(origin[axis], p[axis]));
+    format!("{x} {y} {z}")
+}
+
+/// The shortest decimals of `origin + x` whose difference from `origin` is `x`.
+fn coordinate(origin: f64, x: f32) -> String {
+    let sum = origin + f64::from(x);
+    let short = (0..12).map(|digits| format!("{sum:.digits$}")).find(|text| {
+        let read: Result<f64, _> = text.parse();
+        read.is_ok_and(|read| ((read - origin) as f32).to_bits() == x.to_bits())
+    });
+    short.unwrap_or_else(|| sum.to_string())
+}
+
 /// v upward, with all the digits needed to flip it back without loss.
 pub(super) fn upward(v: f32) -> f64 {
     1.0 - f64::from(v)
 }
 
-/// Warnings about the contents that SMF and OBJ cannot hold.
+/// Warnings about the contents that formats of meshes alone cannot hold.
 pub(super) fn lost_in_text(model: &Model) -> Vec<String> {
     let mut lost = Vec::new();
     let mut add = |count: usize, what: &str| {
@@ -82,4 +101,19 @@ pub(super) fn lost_in_text(model: &Model) -> Vec<String> {
     add(model.lights.len(), "lights");
     add(model.cameras.len(), "cameras");
     lost
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn far_positions_have_the_digits_of_their_file() {
+        for (origin, text) in [(400_000.0, "400000.1"), (5e6, "4999999.75"), (1e9, "1000000003"), (-5e6, "-5000000.3")]
+        {
+            let read: f64 = text.parse().unwrap();
+            assert_eq!(coordinate(origin, (read - origin) as f32), text);
+        }
+        assert_eq!(coordinates(DVec3::ZERO, Vec3::new(0.1, -0.0, 1e30)), format!("{} -0 {}", 0.1, 1e30_f32));
+    }
 }

@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::Path;
 
 use super::file::{WriteError, replace};
-use super::placed::{Placed, lost_in_text, upward};
+use super::placed::{Placed, coordinates, lost_in_text, upward};
 use crate::Model;
 use crate::files::srgb::encoded;
 
@@ -19,7 +19,7 @@ pub(super) fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteErro
     replace(path, |file| {
         writeln!(file, "#$SMF 1.0\n#$vertices {vertices}\n#$faces {triangles}")?;
         for p in placed.iter().flat_map(|placed| &placed.positions) {
-            writeln!(file, "v {} {} {}", p.x, p.y, p.z)?;
+            writeln!(file, "v {}", coordinates(model.origin, *p))?;
         }
         let mut first = 1;
         for (part, placed) in parts.iter().zip(&placed) {

@@ -1,0 +1,4 @@
+//! 3MF, as an archive.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| halfway_fuzz::feed("threemf", bytes));
