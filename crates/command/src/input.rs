@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use halfway::prelude::*;
+use halfway::render::DrawsOnce;
 use halfway::scene::options::{SceneOptions, scene_of_models, unknown_material};
 use halfway::scene::{LoadedModel, SceneError, SceneFile, Spawned, spawn, spawn_seen_from};
 
@@ -107,6 +108,16 @@ impl SceneInput {
         if !self.warned.replace(true) {
             spawned.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
         }
+        Ok(spawned)
+    }
+
+    /// The same for an App that draws a single picture. Large meshes are not cut into patches then, unless many lights
+    /// would be shaded where they do not reach.
+    pub(crate) fn spawn_once(&self, app: &mut App) -> Result<Spawned, Failure> {
+        const FEW_LIGHTS: usize = 8;
+        let spawned = self.spawn(app)?;
+        let is_one_frame = self.scene.samples <= 4;
+        app.insert_resource(DrawsOnce(is_one_frame && spawned.lights.len() <= FEW_LIGHTS));
         Ok(spawned)
     }
 

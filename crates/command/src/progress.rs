@@ -72,6 +72,8 @@ pub(crate) struct Bar(Option<Mutex<Shown>>);
 
 struct Shown {
     begun: Instant,
+    /// Nothing is shown before.
+    patience: Duration,
     /// The time of the last update.
     written: Option<Instant>,
     done: u64,
@@ -79,7 +81,12 @@ struct Shown {
 
 impl Bar {
     pub(crate) fn new() -> Self {
-        let shown = || Mutex::new(Shown { begun: Instant::now(), written: None, done: 0 });
+        Self::after(Duration::ZERO)
+    }
+
+    /// A bar for work that is usually done before it would be shown.
+    pub(crate) fn after(patience: Duration) -> Self {
+        let shown = || Mutex::new(Shown { begun: Instant::now(), patience, written: None, done: 0 });
         Self(std::io::stderr().is_terminal().then(shown))
     }
 
@@ -93,7 +100,8 @@ impl Bar {
         let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);
         // Threads may report in another order than they finish in.
         shown.done = shown.done.max(done);
-        if shown.written.is_none_or(|written| written.elapsed() >= Duration::from_millis(100)) {
+        let is_due = |written: Instant| written.elapsed() >= Duration::from_millis(100);
+        if shown.begun.elapsed() >= shown.patience && shown.written.is_none_or(is_due) {
             shown.written = Some(Instant::now());
             let line = line(shown.done, of, shown.begun.elapsed(), doing);
             let _ = write!(std::io::stderr(), "\r{line}\x1b[K");
@@ -103,7 +111,8 @@ impl Bar {
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        if self.0.is_some() {
+        let was_shown = |shown: &Mutex<Shown>| shown.lock().unwrap_or_else(PoisonError::into_inner).written.is_some();
+        if self.0.as_ref().is_some_and(was_shown) {
             let _ = write!(std::io::stderr(), "\r\x1b[K");
         }
     }

@@ -2,12 +2,14 @@
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use halfway::mesh::{Format, LoadOptions, Model, load_stream, load_with};
+use halfway::mesh::{Format, LoadOptions, LoadProgress, Model, load_stream, load_with};
 
 use crate::failure::Failure;
+use crate::progress::Bar;
 
 const EXPECTED: &str = "neither a scene that is known by a name nor a file that ends in .json, .smf, .obj, .gltf, .glb, .ply, .stl, .off or .3mf";
 /// The name of standard input and standard output.
@@ -116,7 +118,12 @@ impl ReadingArgs {
             let way = Format::converter(file).map_or_else(String::new, |way| format!(" ({way})"));
             return Err(format!("{}: {EXPECTED}{way}", file.display()).into());
         } else {
-            load_with(file, options, &mut |_| ControlFlow::Continue(()))
+            // Until a picture is begun, Ctrl-C ends the process at once.
+            let bar = Bar::after(Duration::from_secs(1));
+            load_with(file, options, &mut |LoadProgress { done, of }| {
+                bar.show(done, of, "reading");
+                ControlFlow::Continue(())
+            })
         };
         Ok(model?)
     }

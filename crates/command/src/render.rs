@@ -161,7 +161,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     };
     let drawer = Drawer::choose(args)?;
     let mut app = drawer.app(size);
-    let spawned = input.spawn(&mut app)?;
+    let is_one = recording.frames.len() == 1 && args.views.is_none() && args.also.is_empty();
+    let spawned = if is_one { input.spawn_once(&mut app)? } else { input.spawn(&mut app)? };
     if let Some(views) = &args.views {
         return draw_sheet(&options, views, &recording, &drawer, (&mut app, spawned.camera));
     }

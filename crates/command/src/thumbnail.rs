@@ -43,7 +43,7 @@ pub(crate) fn run(args: &ThumbnailArgs) -> Result<(), Failure> {
     input.scene.objects.iter_mut().for_each(|object| object.faces = Some(Faces::Both));
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins::headless(size)).insert_resource(AdapterChoice::cpu());
-    input.spawn(&mut app)?;
+    input.spawn_once(&mut app)?;
     let picture = render_picture(&mut app)?;
     // The system takes everything back sooner.
     std::mem::forget(app);

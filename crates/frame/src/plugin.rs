@@ -12,7 +12,7 @@ use crate::passes::{self, Passes};
 use crate::report::FrameReport;
 use crate::sets::RenderSet;
 use crate::times;
-use crate::values::{FrameValues, WaitsForLevels};
+use crate::values::{DrawsOnce, FrameValues, WaitsForLevels};
 use crate::view::camera::{self, Epoch, PictureSize, View};
 use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
 use bevy_app::{App, Plugin};
@@ -45,6 +45,7 @@ impl Plugin for FramePlugin {
             .init_resource::<FrameReport>()
             .init_resource::<FrameValues>()
             .init_resource::<WaitsForLevels>()
+            .init_resource::<DrawsOnce>()
             .init_resource::<PictureSize>()
             .init_resource::<CameraTurn>()
             .init_resource::<FrameOrigin>()

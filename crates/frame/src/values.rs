@@ -19,6 +19,11 @@ impl Default for WaitsForLevels {
     }
 }
 
+/// Whether the App draws a single picture. Then large meshes are drawn in the order of their triangles: to cut them into
+/// patches takes longer than a picture, and pays from the second one on. `false` by default.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DrawsOnce(pub bool);
+
 /// The values of a target's pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PixelValues {

@@ -1,6 +1,7 @@
 //! Numbering of distinct values.
 
 use std::hash::BuildHasher;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::Vec3;
 use hashbrown::{DefaultHashBuilder, HashTable};
@@ -35,30 +36,35 @@ impl Numbering {
 
     /// Numbers positions; −0 and 0 are equal.
     pub(crate) fn from_positions(positions: &[Vec3]) -> Self {
-        // Most are distinct. Equal ones are sought among few that have a part of the hash in common, so that the table
-        // stays in the cache, and on all threads.
+        // Most are distinct, and told apart by their hashes alone, which are sorted in buckets: on all threads, and in the
+        // cache. The seed is new each run, so that no file can be made to collide.
         let hasher = DefaultHashBuilder::default();
+        let hash = |p: &Vec3| hasher.hash_one(position_key(*p)) as u32;
+        let hashes: Vec<u32> = positions.par_iter().with_min_len(BUCKET).map(hash).collect();
         let bits = (positions.len() / BUCKET).checked_ilog2().unwrap_or(0);
-        let hash = |p: &Vec3| hasher.hash_one(position_key(*p));
-        let bucket = |p: &Vec3| (hash(p) >> 32) as u32 & ((1 << bits) - 1);
-        let of_each: Vec<u32> = if bits == 0 {
-            vec![0; positions.len()]
-        } else {
-            positions.par_iter().with_min_len(BUCKET).map(bucket).collect()
-        };
-        let mut buckets = Buckets::new(1 << bits, of_each.iter().map(|&bucket| Some(bucket)));
+        let bucket = |hash: &u32| Some(hash.checked_shr(32 - bits).unwrap_or(0));
+        let mut buckets = Buckets::new(1 << bits, hashes.iter().map(bucket));
         let places = buckets.things().to_vec();
-        buckets.par_each(HashTable::new, |table: &mut HashTable<u32>, vertices| {
-            let hash = |vertex: &u32| hash(&positions[*vertex as usize]);
-            table.clear();
-            table.reserve(vertices.len(), hash);
-            for vertex in vertices {
-                let position = positions[*vertex as usize];
-                let is_equal = |other: &u32| positions[*other as usize] == position;
-                *vertex = *table.entry(hash(vertex), is_equal, hash).or_insert(*vertex).get();
+        let are_distinct = AtomicBool::new(true);
+        buckets.par_each(Vec::new, |keys: &mut Vec<u64>, vertices| {
+            keys.clear();
+            keys.extend(vertices.iter().zip(0..).map(|(&v, at)| u64::from(hashes[v as usize]) << 32 | at));
+            keys.sort_unstable();
+            for equal in keys.chunk_by(|a, b| a >> 32 == b >> 32).filter(|equal| equal.len() > 1) {
+                for (i, at) in equal.iter().map(|key| *key as u32 as usize).enumerate().skip(1) {
+                    let position = positions[vertices[at] as usize];
+                    let mut before = equal[..i].iter().map(|key| vertices[*key as u32 as usize]);
+                    if let Some(first) = before.find(|other| positions[*other as usize] == position) {
+                        vertices[at] = first;
+                        are_distinct.store(false, Ordering::Relaxed);
+                    }
+                }
             }
         });
-        let mut numbers = of_each;
+        if are_distinct.into_inner() {
+            return Self::of_distinct(positions.len());
+        }
+        let mut numbers = hashes;
         for (&vertex, &first) in places.iter().zip(buckets.things()) {
             numbers[vertex as usize] = first;
         }

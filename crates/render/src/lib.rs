@@ -50,6 +50,7 @@ pub use halfway_frame::passes::{Pass, PassCounts, Phase};
 pub use halfway_frame::report::FrameReport;
 pub use halfway_frame::sets::RenderSet;
 pub use halfway_frame::times::{FrameTimes, SetTimes};
+pub use halfway_frame::values::DrawsOnce;
 pub use halfway_frame::view::camera::View;
 pub use halfway_frame::view::matrices::{ModelView, NormalMatrix, Visible, normal_matrix};
 pub use halfway_frame::why_empty::{EmptyReason, why_empty};

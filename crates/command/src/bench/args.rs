@@ -27,9 +27,13 @@ pub(crate) struct BenchArgs {
     /// s5: 60 objects of five kinds, 2,393,700 triangles, 6 lights, 1280 × 720;
     /// s6: one scan of 1,000,000 triangles with noise, 3 lights, 1280 × 720;
     /// features: the cost of each feature of lighting once a vertex and once a pixel, beside one directional light;
-    /// lights: the CPU's cost of a light for each patch that it touches, and of one of 20,000 that touches nothing
-    #[arg(value_name = "s1|s1x16|s2|s3|s4|s5|s6|features|lights|SCENE|MODEL", verbatim_doc_comment)]
+    /// lights: the CPU's cost of a light for each patch that it touches, and of one of 20,000 that touches nothing;
+    /// load: the parts of the time from a model file to its first picture
+    #[arg(value_name = "s1|s1x16|s2|s3|s4|s5|s6|features|lights|load|SCENE|MODEL", verbatim_doc_comment)]
     pub(super) subject: OsString,
+    /// The model file of `load`
+    #[arg(value_name = "FILE", required_if_eq("subject", "load"))]
+    file: Option<PathBuf>,
     #[command(flatten)]
     pub(super) size: SizeArgs,
     #[command(flatten)]
@@ -59,6 +63,8 @@ pub(super) enum Subject {
     Scene(BenchmarkScene),
     Features,
     Lights,
+    /// The loading of a model.
+    Load(PathBuf),
     /// A scene file or a model.
     File(PathBuf),
 }
@@ -68,6 +74,7 @@ impl BenchArgs {
         match self.subject.to_str().unwrap_or_default() {
             "features" => Subject::Features,
             "lights" => Subject::Lights,
+            "load" => Subject::Load(self.file.clone().unwrap_or_default()),
             name => match BenchmarkScene::from_str(name, false) {
                 Ok(scene) => Subject::Scene(scene),
                 Err(_) => Subject::File(PathBuf::from(&self.subject)),

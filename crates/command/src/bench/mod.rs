@@ -7,6 +7,7 @@ mod cpu;
 mod facts;
 mod features;
 mod lights;
+mod load;
 mod own_process;
 mod scenes;
 
@@ -22,6 +23,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Failure> {
     let timed = match args.subject() {
         Subject::Features => return features::run(args),
         Subject::Lights => return lights::run(args),
+        Subject::Load(file) => return load::run(args, &file),
         Subject::Scene(BenchmarkScene::S2) => Timed::Made(BenchmarkScene::S2),
         _ if args.octahedra => {
             return Err("--octahedra: expected the subject s2, whose spheres it makes coarse".to_owned().into());

@@ -67,7 +67,7 @@ fn now_ms() -> f64 {
 }
 
 /// The largest resident set so far in KiB; 0 where the system does not report it.
-fn peak_kb() -> u64 {
+pub(super) fn peak_kb() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
     line.and_then(|value| value.split_whitespace().next()?.parse().ok()).unwrap_or(0)

@@ -93,7 +93,9 @@ impl<T> DrawnMeshes<T> {
                 }
                 _ => Before::Nothing,
             };
-            match make(geometry, triangles.as_flattened(), key.1, before) {
+            let is_unsorted = geometry.patches.are_unsorted();
+            let indices = if is_unsorted { geometry.drawn.indices() } else { triangles.as_flattened() };
+            match make(geometry, indices, key.1, before) {
                 Ok((made, bytes)) => {
                     report.bytes_uploaded += bytes;
                     geometry.triangles.take_if(|_| !geometry.moves);

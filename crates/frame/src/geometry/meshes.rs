@@ -5,7 +5,7 @@ use crate::geometry::workshop::Workshop;
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::{by_vertex_shader, shown_shading};
 use crate::report::FrameReport;
-use crate::values::WaitsForLevels;
+use crate::values::{DrawsOnce, WaitsForLevels};
 use crate::view::camera::View;
 use crate::view::matrices::Visible;
 use bevy_ecs::prelude::*;
@@ -18,6 +18,9 @@ use halfway_texture::{MapKind, Maps, SolidTexture, SurfaceMap, UvSet};
 use rayon::prelude::*;
 use std::sync::Arc;
 
+/// Meshes of so many triangles take longer to measure and to cut into patches than to draw.
+const LARGE: usize = 1 << 16;
+
 /// One mesh, laid out for one way of shading.
 pub struct Geometry {
     /// Its patches.
@@ -28,7 +31,7 @@ pub struct Geometry {
     pub drawn: Mesh,
     /// Some interpolated normal may vanish, so that Phong shading needs the geometric one at hand.
     pub(crate) opposite_normals: bool,
-    /// The vertices of the triangles, in drawing order; `None` once the renderer has taken them, unless the mesh
+    /// The vertices of the triangles, in drawing order, unless that is the mesh's; `None` once the renderer has taken them, unless the mesh
     /// [moves](Self::moves).
     pub(crate) triangles: Option<Arc<Vec<[u32; 3]>>>,
     /// Whether vertices have moved since the mesh was first drawn, so that they may move again.
@@ -167,7 +170,13 @@ impl Geometries {
 
     /// Lays the mesh out unless it is, and with its levels of detail once they are there. A mesh whose vertices have moved
     /// keeps its patches, from the second time on.
-    fn ensure(&mut self, (id, form): (AssetId<Mesh>, Form), mesh: &Mesh, levels: Option<&MeshTriangles>) {
+    fn ensure(
+        &mut self,
+        (id, form): (AssetId<Mesh>, Form),
+        mesh: &Mesh,
+        levels: Option<&MeshTriangles>,
+        once: DrawsOnce,
+    ) {
         let there = self.meshes.get(&(id, form));
         let is_there = there.is_some_and(|there| {
             there.source.is_clone_of(mesh) && levels.is_none_or(|levels| Arc::ptr_eq(&levels.patches, &there.patches))
@@ -185,10 +194,11 @@ impl Geometries {
         let MeshTriangles { corners, patches, pieces } = match (moved, levels) {
             (Some(moved), _) => moved,
             (None, Some(levels)) => levels.clone(),
+            (None, None) if once.0 && drawn.triangle_count() >= LARGE => MeshTriangles::unmeasured(&drawn),
             (None, None) if form.ordered => MeshTriangles::in_order(&drawn),
             (None, None) => MeshTriangles::in_patches(&drawn),
         };
-        let opposite_normals = !form.flat && has_opposite_normals(&drawn, &corners);
+        let opposite_normals = !form.flat && has_opposite_normals(&drawn);
         let triangles = Some(corners);
         let geometry = Geometry { patches, source: mesh.clone(), drawn, opposite_normals, triangles, moves, pieces };
         self.meshes.insert((id, form), geometry);
@@ -234,7 +244,7 @@ pub(crate) fn lay_out(
     visible: Res<Visible>,
     view: Res<View>,
     surroundings: Res<Surroundings>,
-    waits: Res<WaitsForLevels>,
+    (waits, once): (Res<WaitsForLevels>, Res<DrawsOnce>),
     mut workshop: ResMut<Workshop>,
     mut geometries: ResMut<Geometries>,
     mut report: ResMut<FrameReport>,
@@ -251,7 +261,7 @@ pub(crate) fn lay_out(
         let has_levels = pixels > 0.0 && shades_pixels_alone(terms) && wanted.1.may_have_levels();
         if last.replace((wanted, has_levels)) != Some((wanted, has_levels)) {
             let levels = if has_levels { workshop.levels(wanted.0, mesh, waits.0) } else { None };
-            geometries.ensure(wanted, mesh, levels);
+            geometries.ensure(wanted, mesh, levels, *once);
         }
     }
     report.levels_pending = workshop.pending();
@@ -279,9 +289,9 @@ pub(crate) fn forget_removed(
 
 /// Whether any triangle's normals can cancel under interpolation. While all pairs of the three have
 /// `n_i·n_j ≥ −0.49`, `|Σ b_i n_i|² ≥ Σ b_i² − 0.98 Σ b_i b_j ≥ 0.0066` everywhere on the triangle.
-fn has_opposite_normals(mesh: &Mesh, triangles: &[[u32; 3]]) -> bool {
+fn has_opposite_normals(mesh: &Mesh) -> bool {
     let normals = mesh.normals();
-    triangles.par_iter().with_min_len(1 << 12).any(|triangle| {
+    mesh.indices().as_chunks::<3>().0.par_iter().with_min_len(1 << 12).any(|triangle| {
         let [a, b, c] = triangle.map(|index| normals[index as usize]);
         a.dot(b).min(b.dot(c)).min(c.dot(a)) < -0.49
     })

@@ -13,7 +13,8 @@ use std::sync::atomic::AtomicBool;
 /// A mesh's triangles in the order in which they are drawn: patch by patch. A clone shares them.
 #[derive(Clone)]
 pub struct MeshTriangles {
-    /// Three vertices a triangle, patch by patch.
+    /// Three vertices a triangle, patch by patch; empty where they are the mesh's own list
+    /// ([`Patches::are_unsorted`]).
     pub corners: Arc<Vec<[u32; 3]>>,
     /// The patches.
     pub patches: Arc<Patches>,
@@ -37,6 +38,8 @@ pub struct Patches {
     levels: Option<Levels>,
     /// The outline of the whole mesh.
     pub(crate) whole: Outline,
+    /// Whether the triangles are in the order of the mesh because sorting them would not pay.
+    unsorted: bool,
     /// How large the patches are together, measured by the mesh, when the triangles were sorted into them.
     spread: f32,
 }
@@ -84,6 +87,22 @@ impl MeshTriangles {
         Self::new(corners, patches)
     }
 
+    /// The same, without a look at the triangles: they may face anywhere. No copy is made of their corners.
+    pub(crate) fn unmeasured(mesh: &Mesh) -> Self {
+        let whole = Outline::whole(mesh);
+        let patches = Patches {
+            shapes: vec![PatchShape::facing_anywhere(mesh.bounds().center(), whole.radius())],
+            outlines: vec![whole],
+            starts: vec![0, mesh.indices().len() as u32],
+            groups: vec![PatchGroup { outline: whole, patches: 0..1 }],
+            levels: None,
+            whole,
+            unsorted: true,
+            spread: 1.0,
+        };
+        Self::new(Vec::new(), patches)
+    }
+
     /// The mesh cut into patches.
     pub(crate) fn in_patches(mesh: &Mesh) -> Self {
         let mut corners: Vec<_> = mesh.triangles().collect();
@@ -127,13 +146,22 @@ impl Patches {
             patches: first..first + outlines.len() as u32,
         });
         let groups = groups.collect();
-        Self { shapes, outlines, starts, groups, levels: None, whole: Outline::whole(mesh), spread: 0.0 }
+        Self {
+            shapes,
+            outlines,
+            starts,
+            groups,
+            levels: None,
+            whole: Outline::whole(mesh),
+            unsorted: false,
+            spread: 0.0,
+        }
     }
 
     /// The same patches of a mesh whose vertices have moved. `None` where they have come to lie so far apart that it
     /// pays to sort the triangles anew, and for levels of detail, which belong to the places that vertices had.
     pub(crate) fn moved_to(&self, mesh: &Mesh, triangles: &[[u32; 3]]) -> Option<Self> {
-        if self.levels.is_some() {
+        if self.levels.is_some() || self.unsorted {
             return None;
         }
         let patches = Self::between(mesh, triangles, self.starts.clone());
@@ -153,6 +181,11 @@ impl Patches {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Whether the triangles are in the order of the mesh because sorting them would not pay.
+    pub fn are_unsorted(&self) -> bool {
+        self.unsorted
     }
 
     /// The shape of a patch.

@@ -68,6 +68,11 @@ impl PatchShape {
         }
     }
 
+    /// Of triangles in a sphere, of whose normals nothing is known.
+    pub(super) fn facing_anywhere(center: Vec3, radius: f32) -> Self {
+        Self { center, radius, faces: None, normals: None }
+    }
+
     /// Whether a corner with this normal, of a triangle with that, may be a part of it by all that is said of it.
     #[cfg(test)]
     pub(super) fn holds(&self, corner: Vec3, normal: Vec3, face: Option<Vec3>) -> bool {

@@ -12,6 +12,8 @@ pub(crate) const PIECE_VERTICES: usize = 96;
 const ALIGNED: usize = 16;
 /// The attributes of so many vertices are gathered by one thread.
 const GATHERED: usize = 1 << 13;
+/// So many numbers are checked by one thread.
+const CHECKED: usize = 1 << 16;
 /// For errors.
 const MEMORY: &str = "a mesh's pieces";
 
@@ -328,7 +330,7 @@ fn check(positions: &[[f32; 3]], lists: &VertexLists, indices: &[u32]) -> Result
     if !indices.len().is_multiple_of(3) || indices.len() > u32::MAX as usize {
         return list_error("the last triangle", indices.len().next_multiple_of(3), indices.len());
     }
-    match indices.iter().find(|&&index| index as usize >= positions.len()) {
+    match indices.par_iter().with_min_len(CHECKED).find_first(|&&index| index as usize >= positions.len()) {
         Some(&index) => list_error("an index", index as usize + 1, positions.len()),
         None => Ok(()),
     }
@@ -338,9 +340,9 @@ fn check_numbers<const N: usize>(
     what: &'static str,
     (field, expected): (&'static str, &'static str),
     list: &[[f32; N]],
-    is_sound: impl Fn(f32) -> bool,
+    is_sound: impl Fn(f32) -> bool + Sync,
 ) -> Result<(), RasterError> {
-    match list.as_flattened().iter().position(|&x| !is_sound(x)) {
+    match list.as_flattened().par_iter().with_min_len(CHECKED).position_first(|&x| !is_sound(x)) {
         Some(at) => {
             let value = f64::from(list[at / N][at % N]);
             Err(RasterError::Number { what, index: at / N, field, value, expected })

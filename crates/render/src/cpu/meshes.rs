@@ -53,7 +53,7 @@ pub(crate) fn of_levels(mesh: &Mesh, MeshTriangles { corners, patches, .. }: &Me
 /// Draws begin and end where patches do.
 fn pieces(source: &Mesh, patches: &Patches, indices: &[u32], form: Form) -> Result<Pieces, RasterError> {
     let cuts: Vec<_> = (0..patches.len() as u32).map(|patch| patches.indices(patch)).collect();
-    let order = if form.ordered { TriangleOrder::Kept } else { TriangleOrder::Clustered };
+    let order = if form.ordered || patches.are_unsorted() { TriangleOrder::Kept } else { TriangleOrder::Clustered };
     with_vertices(source, form, |positions, lists| Pieces::new(positions, lists, indices, &cuts, order))
 }
 

@@ -40,6 +40,38 @@ impl Scalar {
         })
     }
 
+    /// How many bytes it has in a binary body.
+    pub(super) fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+
+    /// The number in the first bytes, of which there are enough.
+    pub(super) fn decode(self, bytes: &[u8], big: bool) -> f64 {
+        fn first<const N: usize>(bytes: &[u8], big: bool) -> [u8; N] {
+            let mut first = [0; N];
+            first.copy_from_slice(&bytes[..N]);
+            if big {
+                first.reverse();
+            }
+            first
+        }
+        match self {
+            Self::I8 => i8::from_le_bytes(first(bytes, big)).into(),
+            Self::U8 => u8::from_le_bytes(first(bytes, big)).into(),
+            Self::I16 => i16::from_le_bytes(first(bytes, big)).into(),
+            Self::U16 => u16::from_le_bytes(first(bytes, big)).into(),
+            Self::I32 => i32::from_le_bytes(first(bytes, big)).into(),
+            Self::U32 => u32::from_le_bytes(first(bytes, big)).into(),
+            Self::F32 => f32::from_le_bytes(first(bytes, big)).into(),
+            Self::F64 => f64::from_le_bytes(first(bytes, big)),
+        }
+    }
+
     pub(super) fn is_float(self) -> bool {
         matches!(self, Self::F32 | Self::F64)
     }

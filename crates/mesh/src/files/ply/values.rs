@@ -17,7 +17,7 @@ pub(super) struct Values<'a> {
 }
 
 /// So many bytes of a binary body are read ahead.
-const AHEAD: usize = 1 << 16;
+const AHEAD: usize = 1 << 18;
 
 /// The element and property of a number, for errors.
 #[derive(Clone, Copy)]
@@ -102,15 +102,49 @@ impl<'a> Values<'a> {
         Ok(bytes)
     }
 
-    /// Reads on, and returns the next bytes.
-    #[cold]
-    fn read_ahead<const N: usize>(&mut self, place: ElementProperty) -> Result<[u8; N], LoadError> {
+    /// The bytes ahead in a binary body: at least so many (up to 65536), unless it ends before; none in a text.
+    pub(super) fn ahead(&mut self, least: usize) -> Result<&[u8], LoadError> {
+        if self.encoding == PlyEncoding::Ascii {
+            return Ok(&[]);
+        }
+        if self.buffer.len() - self.at < least {
+            self.read_on()?;
+        }
+        Ok(&self.buffer[self.at..])
+    }
+
+    /// Goes on behind so many of the bytes ahead.
+    pub(super) fn consume(&mut self, bytes: usize) {
+        self.at += bytes;
+    }
+
+    pub(super) fn is_big_endian(&self) -> bool {
+        self.encoding == PlyEncoding::BigEndian
+    }
+
+    pub(super) fn line(&self) -> usize {
+        self.line
+    }
+
+    /// Lets errors name another line of a text.
+    pub(super) fn at_line(&mut self, line: usize) {
+        self.line = line;
+    }
+
+    fn read_on(&mut self) -> Result<(), LoadError> {
         let left = self.buffer.len() - self.at;
         self.buffer.copy_within(self.at.., 0);
         self.at = 0;
         self.buffer.resize(AHEAD, 0);
         let read = self.reader.fill(&mut self.buffer[left..])?;
         self.buffer.truncate(left + read);
+        Ok(())
+    }
+
+    /// Reads on, and returns the next bytes.
+    #[cold]
+    fn read_ahead<const N: usize>(&mut self, place: ElementProperty) -> Result<[u8; N], LoadError> {
+        self.read_on()?;
         match self.buffer.first_chunk() {
             Some(bytes) => Ok(*bytes),
             None => Err(self.error(place, "the end of the file", "a number is")),
