@@ -84,6 +84,7 @@ fn physically_based(mtl: &MtlMaterial, mut warnings: Vec<Warning>) -> Result<(Ma
         emissive: mtl.ke.unwrap_or(if mtl.maps.ke.is_some() { [1.0; 3] } else { [0.0; 3] }),
         double_sided: false,
         unlit: false,
+        specular_glossiness: None,
         alpha: AlphaMode::Opaque,
         maps: GltfMaps::default(),
     })?;
