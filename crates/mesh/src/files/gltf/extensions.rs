@@ -52,7 +52,7 @@ pub(super) fn is_read(extension: &str) -> bool {
 pub(super) fn check_required(required: &[String]) -> Result<(), Fault> {
     let is_needed = |name: &&String| !is_read(name) && !LESS.iter().any(|beginning| name.starts_with(beginning));
     match required.iter().find(is_needed) {
-        Some(extension) => Err(Fault::RequiredExtension(extension.clone())),
+        Some(extension) => Err(self::required(extension)),
         None => Ok(()),
     }
 }
@@ -66,10 +66,11 @@ pub(super) fn warnings(document: &Document) -> impl Iterator<Item = String> {
     })
 }
 
-/// The tool that writes a file without an extension, for messages about it.
-pub(super) fn remedy(extension: &str) -> &'static str {
-    match extension {
+/// The error of a file that cannot be shown without an extension.
+pub(super) fn required(extension: &str) -> Fault {
+    let remedy = match extension {
         DRACO => "; `gltf-transform copy` writes the file without it",
         _ => "",
-    }
+    };
+    Fault::RequiredExtension { extension: extension.to_owned(), remedy }
 }

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use super::extensions;
 use crate::MeshError;
 use crate::files::LoadError;
 
@@ -18,7 +17,11 @@ pub(super) enum Fault {
         element: String,
         source: MeshError,
     },
-    RequiredExtension(String),
+    RequiredExtension {
+        extension: String,
+        /// What writes the file without it, after a semicolon.
+        remedy: &'static str,
+    },
     /// An error in a file that the document refers to, complete.
     Elsewhere(LoadError),
 }
@@ -33,7 +36,7 @@ impl Fault {
         match self {
             Self::Element { found, expected, .. } => format!("{found}; {expected} expected"),
             Self::Mesh { source, .. } => source.to_string(),
-            Self::RequiredExtension(extension) => extension,
+            Self::RequiredExtension { extension, .. } => extension,
             Self::Elsewhere(error) => error.to_string(),
         }
     }
@@ -43,9 +46,7 @@ impl Fault {
         match self {
             Self::Element { element, found, expected } => LoadError::Element { path, element, found, expected },
             Self::Mesh { element, source } => LoadError::Mesh { path, element, source },
-            Self::RequiredExtension(extension) => {
-                LoadError::RequiredExtension { path, remedy: extensions::remedy(&extension), extension }
-            }
+            Self::RequiredExtension { extension, remedy } => LoadError::RequiredExtension { path, extension, remedy },
             Self::Elsewhere(error) => error,
         }
     }

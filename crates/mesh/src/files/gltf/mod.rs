@@ -10,6 +10,7 @@ mod document;
 mod extensions;
 mod fault;
 mod images;
+mod instances;
 mod material;
 mod meshopt;
 mod nodes;

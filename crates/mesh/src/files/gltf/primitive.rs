@@ -9,7 +9,7 @@ use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
 
 use super::accessor::{self, Accessors, Attribute, Items, Which};
-use super::extensions::DRACO;
+use super::extensions::{self, DRACO};
 use super::fault::Fault;
 use crate::animation::{Influences, MorphTarget, Moved, Shape};
 use crate::numbering::Numbering;
@@ -110,7 +110,7 @@ impl<'a> Primitives<'a> {
         };
         let is_packed = primitive.extension_value(DRACO).is_some();
         if is_packed && positions.view().is_none() && positions.sparse().is_none() {
-            return Err(Fault::RequiredExtension(DRACO.to_owned()));
+            return Err(extensions::required(DRACO));
         }
         self.without_bounds += usize::from(positions.min().is_none() || positions.max().is_none());
         let made = match primitive.mode() {

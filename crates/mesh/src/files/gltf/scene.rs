@@ -8,8 +8,8 @@ use gltf::khr_lights_punctual::{Kind, Light};
 use gltf::{Document, Node};
 
 use super::fault::{Fault, check_finite};
+use super::instances::instances;
 use super::nodes::Nodes;
-use super::placed::instances;
 use super::primitive::{PrimitiveShape, Primitives};
 use super::skins::Skins;
 use crate::animation::{Placed, Shape};

@@ -57,18 +57,18 @@ fn unzigzag(v: u32) -> u32 {
 /// The last sixteen of something.
 #[derive(Default)]
 struct Recent<T> {
-    all: [T; 16],
+    all: [Option<T>; 16],
     at: usize,
 }
 
 impl<T: Copy> Recent<T> {
     fn push(&mut self, value: T) {
-        self.all[self.at] = value;
+        self.all[self.at] = Some(value);
         self.at = (self.at + 1) % 16;
     }
 
-    /// The value that was pushed so many before the last one.
-    fn get(&self, before: u8) -> T {
+    /// The value that was pushed so many before the last one; `None` where there was none.
+    fn get(&self, before: u8) -> Option<T> {
         self.all[(self.at + 15 - usize::from(before)) % 16]
     }
 }
@@ -116,10 +116,10 @@ impl Reader<'_> {
 
     /// A triangle on an edge of an earlier one.
     fn beside_edge(&mut self, edge: u8, how: u8) -> Option<[u32; 3]> {
-        let [a, b] = self.edges.get(edge);
+        let [a, b] = self.edges.get(edge)?;
         let c = match how {
             0 => self.fresh(),
-            1..13 => self.vertices.get(how),
+            1..13 => self.vertices.get(how)?,
             13 | 14 => {
                 self.last = if how == 13 { self.last.wrapping_sub(1) } else { self.last.wrapping_add(1) };
                 self.last
@@ -140,7 +140,7 @@ impl Reader<'_> {
             0 => Some(self.fresh()),
             15 if may_be_written => self.written(),
             15 => None,
-            _ => Some(self.vertices.get(how - 1)),
+            _ => self.vertices.get(how - 1),
         }
     }
 
