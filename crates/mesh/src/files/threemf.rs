@@ -257,7 +257,7 @@ fn group(element: &Element, elements: &mut Elements) -> Result<Group, Failure> {
     while let Some(inner) = elements.next_within(element)? {
         match inner.name.as_str() {
             "base" => {
-                materials.push((inner.get("name").unwrap_or_default().to_owned(), color(&inner, "displaycolor")?))
+                materials.push((inner.get("name").unwrap_or_default().to_owned(), color(&inner, "displaycolor")?));
             }
             "color" => colors.push(color(&inner, "color")?),
             _ => {}
