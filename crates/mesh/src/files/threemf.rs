@@ -2,6 +2,7 @@
 //! a zip archive.
 
 mod assemble;
+mod failure;
 mod package;
 mod xml;
 
@@ -10,7 +11,8 @@ use std::collections::HashMap;
 use glam::{DMat4, DVec3};
 
 use self::assemble::Assembly;
-use self::package::{Failure, Package};
+use self::failure::Failure;
+use self::package::Package;
 use self::xml::{Element, Elements};
 use super::LoadError;
 use super::source::{Source, stem};

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use glam::{DMat4, DVec3, Mat4, Vec3, Vec4};
 
-use super::package::Failure;
+use super::failure::Failure;
 use super::{Document, Group, Id, Object};
 use crate::numbering::Numbering;
 use crate::{Mesh, Model, MtlMaterial, Part, SourceMaterial, origin_of_box};
