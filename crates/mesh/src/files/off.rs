@@ -48,6 +48,7 @@ struct Off {
 
 /// What each vertex has beside its position.
 #[derive(Clone, Copy, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "one for each mark before `OFF`")]
 struct Variant {
     uvs: bool,
     colors: bool,
@@ -184,7 +185,9 @@ impl Off {
     fn into_model(mut self, path: &Path) -> Result<Model, LoadError> {
         let is_cloud = self.ends.is_empty();
         let mut is_used = vec![is_cloud; self.positions.len()];
-        self.corners.iter().for_each(|&corner| is_used[corner as usize] = true);
+        for &corner in &self.corners {
+            is_used[corner as usize] = true;
+        }
         let mut without_place = 0;
         for (vertex, (p, used)) in self.positions.iter_mut().zip(&is_used).enumerate() {
             if !p.as_vec3().is_finite() {

@@ -30,7 +30,8 @@ pub(super) fn parse(source: Source) -> Result<Model, LoadError> {
     let (is_text, is_whole) = (is_text(&header[..found]), found == HEADER && length <= reader.length());
     let mut skipped = Skipped::default();
     let mut warnings = Vec::new();
-    let solids = if is_text && !(is_whole && !header[80..].iter().all(|&byte| is_of_text(byte))) {
+    let counts_like_text = header[80..].iter().all(|&byte| is_of_text(byte));
+    let solids = if is_text && (!is_whole || counts_like_text) {
         text(reader, &mut skipped, &stem(path))?
     } else if is_whole {
         vec![binary(reader, count, &mut warnings, stem(path))?]
@@ -121,11 +122,11 @@ impl StlSolid {
         };
         let Numbering { numbers, firsts } = Numbering::new(corners.count(), key);
         let positions = firsts.iter().map(|&first| position(first as usize)).collect();
-        let mesh = Mesh::new(positions, numbers).and_then(|mesh| match colors.is_empty() {
-            true => Ok(mesh),
-            false => {
-                mesh.with_colors(firsts.iter().map(|&first| Vec3::from(color(first as usize)).extend(1.0)).collect())
+        let mesh = Mesh::new(positions, numbers).and_then(|mesh| {
+            if colors.is_empty() {
+                return Ok(mesh);
             }
+            mesh.with_colors(firsts.iter().map(|&first| Vec3::from(color(first as usize)).extend(1.0)).collect())
         });
         match mesh {
             Ok(mesh) => Ok(Part { name, mesh, material: None, world_from_part: Mat4::IDENTITY }),
@@ -143,7 +144,7 @@ fn is_against(normal: DVec3, [a, b, c]: [DVec3; 3]) -> bool {
 /// The colours of a binary file: five bits a channel in the attributes of its triangles.
 struct Attributes {
     /// The colour of the whole object, if the header has one (Magics): then bit 15 of an attribute asks for it, and red
-    /// has the lowest bits. Else bit 15 says that there is a colour, and blue has the lowest bits (VisCAM).
+    /// has the lowest bits. Else bit 15 says that there is a colour, and blue has the lowest bits (`VisCAM`).
     object: Option<[f32; 3]>,
     with_color: usize,
     /// Those of another meaning.

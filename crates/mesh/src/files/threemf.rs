@@ -2,6 +2,7 @@
 //! a zip archive.
 
 mod assemble;
+mod failure;
 mod package;
 mod xml;
 
@@ -10,7 +11,8 @@ use std::collections::HashMap;
 use glam::{DMat4, DVec3};
 
 use self::assemble::Assembly;
-use self::package::{Failure, Package};
+use self::failure::Failure;
+use self::package::Package;
 use self::xml::{Element, Elements};
 use super::LoadError;
 use super::source::{Source, stem};
@@ -257,7 +259,7 @@ fn group(element: &Element, elements: &mut Elements) -> Result<Group, Failure> {
     while let Some(inner) = elements.next_within(element)? {
         match inner.name.as_str() {
             "base" => {
-                materials.push((inner.get("name").unwrap_or_default().to_owned(), color(&inner, "displaycolor")?))
+                materials.push((inner.get("name").unwrap_or_default().to_owned(), color(&inner, "displaycolor")?));
             }
             "color" => colors.push(color(&inner, "color")?),
             _ => {}

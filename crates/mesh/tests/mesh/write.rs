@@ -502,6 +502,12 @@ fn obj_keeps_images_beside_it() {
         assert_eq!(SourceMap { name: expected.name.clone(), ..found.clone() }, *expected);
     }
     assert_eq!(gold.maps.kd.as_ref().unwrap().name, "model_0.gif");
+    // The image of another file of this name stays.
+    folder.write("model_0.gif", "something else");
+    let (read, _) = again(&folder, "model.obj", &model);
+    let SourceMaterial::Mtl(gold) = &read.materials[0] else { panic!() };
+    assert_eq!(gold.maps.kd.as_ref().unwrap().name, "model_1.gif");
+    assert_eq!(std::fs::read(folder.path().join("model_0.gif")).unwrap(), b"something else");
     // The opacity of a masked material is in its image's alpha.
     assert_eq!(gold.maps.d.as_ref().unwrap().channel, Some(SourceChannel::Alpha));
     let (_, lost) = again(&folder, "model.smf", &model);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use glam::{DMat4, DVec3, Mat4, Vec3, Vec4};
 
-use super::package::Failure;
+use super::failure::Failure;
 use super::{Document, Group, Id, Object};
 use crate::numbering::Numbering;
 use crate::{Mesh, Model, MtlMaterial, Part, SourceMaterial, origin_of_box};
@@ -142,9 +142,11 @@ impl Draft {
         let Numbering { numbers, firsts } = Numbering::new(corners.len(), key);
         let position = |first: &u32| (object.vertices[corners[*first as usize] as usize] - origin).as_vec3();
         let positions: Vec<Vec3> = firsts.iter().map(position).collect();
-        let mesh = Mesh::new(positions, numbers).and_then(|mesh| match has_colors {
-            true => mesh.with_colors(firsts.iter().map(|&first| Vec4::from(color(first as usize))).collect()),
-            false => Ok(mesh),
+        let mesh = Mesh::new(positions, numbers).and_then(|mesh| {
+            if !has_colors {
+                return Ok(mesh);
+            }
+            mesh.with_colors(firsts.iter().map(|&first| Vec4::from(color(first as usize))).collect())
         });
         mesh.map_err(|error| Failure::new(&format!("{}: object {}", id.0, id.1), error.to_string(), "a valid mesh is"))
     }
@@ -180,13 +182,14 @@ impl Materials {
                 });
                 (Some(index), None)
             }
-            Some(Group::Colors(colors)) => match numbers.map(|number| colors.get(number as usize).copied()) {
-                [Some(a), Some(b), Some(c)] => (None, Some([a, b, c])),
-                _ => {
-                    self.missing += 1;
-                    (None, None)
+            Some(Group::Colors(colors)) => {
+                let found = numbers.map(|number| colors.get(number as usize).copied());
+                if let [Some(a), Some(b), Some(c)] = found {
+                    return (None, Some([a, b, c]));
                 }
-            },
+                self.missing += 1;
+                (None, None)
+            }
             // Of its kind there is a warning.
             Some(Group::Other) => (None, None),
             None => {

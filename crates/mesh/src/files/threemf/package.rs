@@ -1,44 +1,16 @@
 //! The zip archive of a 3MF file.
 
 use std::io::{self, BufReader, Cursor, Read};
-use std::path::Path;
 
 use zip::ZipArchive;
 
+use super::failure::Failure;
 use super::xml::Elements;
-use crate::files::LoadError;
 
 /// The most bytes of XML that are read: so many times the file's, and so many besides. The XML of models is packed to a
 /// tenth or so, and zeros to a thousandth.
 const MOST_UNPACKED: u64 = 50;
 const UNPACKED_BESIDES: u64 = 1 << 16;
-
-/// Why a file was refused.
-pub(super) enum Failure {
-    Load(LoadError),
-    Element { element: String, found: String, expected: String },
-}
-
-impl From<LoadError> for Failure {
-    fn from(error: LoadError) -> Self {
-        Self::Load(error)
-    }
-}
-
-impl Failure {
-    pub(super) fn new(element: &str, found: impl Into<String>, expected: &str) -> Self {
-        Self::Element { element: element.to_owned(), found: found.into(), expected: expected.to_owned() }
-    }
-
-    pub(super) fn for_file(self, path: &Path) -> LoadError {
-        match self {
-            Self::Load(error) => error,
-            Self::Element { element, found, expected } => {
-                LoadError::Element { path: path.to_owned(), element, found, expected }
-            }
-        }
-    }
-}
 
 /// The archive, and how many bytes may still be unpacked.
 pub(super) struct Package {

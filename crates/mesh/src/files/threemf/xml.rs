@@ -5,7 +5,7 @@ use std::io::BufRead;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 
-use super::package::Failure;
+use super::failure::Failure;
 use crate::files::text::abridged;
 
 /// The elements of a part of the package, in order.

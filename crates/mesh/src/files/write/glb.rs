@@ -439,9 +439,9 @@ impl Maps {
             SourceMaterial::MetallicRoughness(pbr) => pbr,
             SourceMaterial::Mtl(mtl) => {
                 let others = [&mtl.maps.ks, &mtl.maps.d, &mtl.maps.ns, &mtl.maps.bump];
-                others.into_iter().flatten().for_each(|_| {
+                for _ in others.into_iter().flatten() {
                     self.files.lose("images of highlights, opacity or height, which glTF has in other forms");
-                });
+                }
                 of_mtl = metallic_roughness(mtl);
                 &of_mtl
             }
@@ -480,14 +480,13 @@ impl Maps {
                 return None;
             }
         };
-        let image = match self.written.get(&map.bytes.as_ptr()) {
-            Some(&image) => image,
-            None => {
-                let image = self.image(map, kind, file)?;
-                self.images.push(image);
-                self.written.insert(map.bytes.as_ptr(), self.images.len() - 1);
-                self.images.len() - 1
-            }
+        let image = if let Some(&image) = self.written.get(&map.bytes.as_ptr()) {
+            image
+        } else {
+            let image = self.image(map, kind, file)?;
+            self.images.push(image);
+            self.written.insert(map.bytes.as_ptr(), self.images.len() - 1);
+            self.images.len() - 1
         };
         let mut texture = json!({ "sampler": place_in(&mut self.samplers, sampler(map)) });
         if kind == "image/webp" {

@@ -1,6 +1,7 @@
 //! The images of materials, as files beside the model.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -50,7 +51,18 @@ impl ImageFiles {
             return None;
         };
         let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
-        let name = format!("{stem}_{}.{ending}", self.images.len());
+        let mut number = self.images.len();
+        let name = loop {
+            let name = format!("{stem}_{number}.{ending}");
+            // Somebody else's image keeps its name.
+            let is_ours = self.images.iter().any(|(other, _)| *other == name);
+            let is_free =
+                std::fs::read(self.path.with_file_name(&name)).map_or(true, |bytes| bytes[..] == map.bytes[..]);
+            if is_free && !is_ours {
+                break name;
+            }
+            number += 1;
+        };
         self.images.push((name.clone(), Arc::clone(&map.bytes)));
         Some(name)
     }
@@ -113,12 +125,12 @@ impl ImageFiles {
         let SourceMap { wrap, offset, scale, .. } = map;
         let mut text = keyword.to_owned();
         if scale.iter().any(|s| s.to_bits() != 1.0_f32.to_bits()) {
-            text += &format!(" -s {} {} 1", scale[0], scale[1]);
+            let _ = write!(text, " -s {} {} 1", scale[0], scale[1]);
         }
         // v runs upward there: 1 − (s·(1 − v) + o).
         let upward = 1.0 - scale[1] - offset[1];
         if offset[0] != 0.0 || upward != 0.0 {
-            text += &format!(" -o {} {upward} 0", offset[0]);
+            let _ = write!(text, " -o {} {upward} 0", offset[0]);
         }
         if wrap.contains(&SourceWrap::Clamp) {
             text += " -clamp on";
@@ -133,7 +145,7 @@ impl ImageFiles {
             self.lose("images by the second texture coordinates, which take the first");
         }
         if keyword == "map_Bump" && map.amount.to_bits() != 1.0_f32.to_bits() {
-            text += &format!(" -bm {}", map.amount);
+            let _ = write!(text, " -bm {}", map.amount);
         }
         if let Some(channel) = map.channel {
             let letter = match channel {
@@ -142,7 +154,7 @@ impl ImageFiles {
                 SourceChannel::Blue => "b",
                 SourceChannel::Alpha => "m",
             };
-            text += &format!(" -imfchan {letter}");
+            let _ = write!(text, " -imfchan {letter}");
         }
         Some(format!("{text} {name}"))
     }

@@ -91,6 +91,7 @@ fn lost(model: &Model, is_cloud: bool, has_colors: bool) -> Vec<String> {
 }
 
 /// What each vertex has beside its position.
+#[expect(clippy::struct_excessive_bools, reason = "one for each group of columns")]
 struct Columns {
     normals: bool,
     uvs: bool,
