@@ -251,7 +251,9 @@ impl Mesh {
     /// A mesh from data that is known to be valid.
     pub(crate) fn checked(positions: Vec<Vec3>, normals: Vec<Vec3>, uvs: Option<Vec<Vec2>>, indices: Vec<u32>) -> Self {
         let mut is_used = vec![false; positions.len()];
-        indices.iter().for_each(|index| is_used[*index as usize] = true);
+        for index in &indices {
+            is_used[*index as usize] = true;
+        }
         let are_used = !is_used.contains(&false);
         let bounds = bounds_of_used(&positions, &indices, are_used);
         let data = MeshData {
