@@ -198,7 +198,8 @@ impl Geometries {
             (None, None) if form.ordered => MeshTriangles::in_order(&drawn),
             (None, None) => MeshTriangles::in_patches(&drawn),
         };
-        let opposite_normals = !form.flat && has_opposite_normals(&drawn);
+        let listed = if patches.are_unsorted() { drawn.indices().as_chunks::<3>().0 } else { &corners[..] };
+        let opposite_normals = !form.flat && has_opposite_normals(&drawn, listed);
         let triangles = Some(corners);
         let geometry = Geometry { patches, source: mesh.clone(), drawn, opposite_normals, triangles, moves, pieces };
         self.meshes.insert((id, form), geometry);
@@ -289,9 +290,9 @@ pub(crate) fn forget_removed(
 
 /// Whether any triangle's normals can cancel under interpolation. While all pairs of the three have
 /// `n_i·n_j ≥ −0.49`, `|Σ b_i n_i|² ≥ Σ b_i² − 0.98 Σ b_i b_j ≥ 0.0066` everywhere on the triangle.
-fn has_opposite_normals(mesh: &Mesh) -> bool {
+fn has_opposite_normals(mesh: &Mesh, triangles: &[[u32; 3]]) -> bool {
     let normals = mesh.normals();
-    mesh.indices().as_chunks::<3>().0.par_iter().with_min_len(1 << 12).any(|triangle| {
+    triangles.par_iter().with_min_len(1 << 12).any(|triangle| {
         let [a, b, c] = triangle.map(|index| normals[index as usize]);
         a.dot(b).min(b.dot(c)).min(c.dot(a)) < -0.49
     })

@@ -287,6 +287,19 @@ mod tests {
     }
 
     #[test]
+    fn unsorted_meshes_are_one_patch_of_their_own_list() {
+        let mesh = Mesh::from(Plane { size: 20.0, divisions: 64 });
+        let MeshTriangles { corners, patches, .. } = MeshTriangles::unmeasured(&mesh);
+        assert!(corners.is_empty() && patches.are_unsorted());
+        assert_eq!((patches.len(), patches.indices(0)), (1, 0..mesh.indices().len() as u32));
+        let shape = patches.shape(0);
+        assert!(mesh.positions().iter().all(|p| shape.holds(*p, Vec3::NEG_Y, Some(Vec3::X))));
+        // Its list is not kept, so that it is laid out anew when vertices move.
+        assert!(patches.moved_to(&mesh, &corners).is_none());
+        assert!(!MeshTriangles::in_patches(&mesh).patches.are_unsorted());
+    }
+
+    #[test]
     fn patches_hold_every_triangle_once_with_true_bounds() {
         for mesh in [Mesh::from(UvSphere::new(2.0, 96, 48)), Mesh::from(Plane { size: 200.0, divisions: 64 })] {
             let MeshTriangles { corners: triangles, patches, .. } = MeshTriangles::in_patches(&mesh);

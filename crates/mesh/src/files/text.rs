@@ -221,7 +221,7 @@ pub(super) fn number64(word: &str) -> Option<f64> {
     let is_between = x.to_bits() << 35 == 1 << 63 || x.abs() < f64::from(f32::MIN_POSITIVE);
     if is_between && x != 0.0 {
         let near: f32 = word.parse().ok()?;
-        if near != x as f32 {
+        if near.to_bits() != (x as f32).to_bits() {
             return Some(if f64::from(near) > x { x.next_up() } else { x.next_down() });
         }
     }

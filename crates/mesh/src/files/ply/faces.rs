@@ -165,7 +165,7 @@ impl Faces {
         let length = property.list.map_or(Ok(0), |length| length_of(length, place, values))?;
         for _ in 0..length {
             let corner = values.next(property.scalar, place)?;
-            let is_restart = corner == -1.0 && place.element == "tristrips";
+            let is_restart = corner.total_cmp(&-1.0).is_eq() && place.element == "tristrips";
             if !(is_restart || (0.0..f64::from(u32::MAX)).contains(&corner) && corner.fract() == 0.0) {
                 return Err(values.error(place, &format!("{corner}"), "a vertex, counted from 0, is"));
             }

@@ -452,7 +452,7 @@ impl Record {
     fn new(element: &Element) -> Option<Self> {
         let mut size = 0;
         let mut numbers = Vec::with_capacity(element.properties.len());
-        for property in element.properties.iter() {
+        for property in &element.properties {
             if property.list.is_some() {
                 return None;
             }
