@@ -301,3 +301,16 @@ fn what_cannot_be_moved_is_said() {
     let model = file.load(&lines).unwrap();
     assert_eq!(model.warnings, ["the morph targets and joints of 1 primitives of lines or points are skipped"]);
 }
+
+#[test]
+fn writers_say_that_animations_are_lost() {
+    let (file, members) = turning_cube();
+    let model = file.load(&members).expect("a model");
+    for extension in ["glb", "obj", "ply"] {
+        let path = std::env::temp_dir().join(format!("turning_{}.{extension}", std::process::id()));
+        let lost = halfway_mesh::write(&path, &model).expect("written");
+        let _ = std::fs::remove_file(path);
+        let found = lost.iter().any(|lost| lost == "1 animations; the model is written in the pose of the file");
+        assert!(found, "{extension}: {lost:?}");
+    }
+}

@@ -15,7 +15,7 @@ use std::path::Path;
 pub use file::WriteError;
 
 use super::Format;
-use crate::Model;
+use crate::{Model, SourceMaterial};
 
 /// Writes a model into an SMF, OBJ, GLB, glTF, PLY (binary) or STL (binary) file, told by the extension in upper or lower
 /// case. OBJ adds an MTL file of the same name if the model has materials, glTF its buffer, and both the images of the
@@ -46,7 +46,7 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
         }
     }?;
     let has_images = matches!(Format::from_path(path), Some(Format::Obj | Format::Gltf | Format::Glb));
-    lost.extend(lost_images(model).filter(|_| !has_images).into_iter().chain(lost_properties(model)));
+    lost.extend(lost_images(model).filter(|_| !has_images).into_iter().chain(lost_in_all(model)));
     Ok(lost)
 }
 
@@ -74,7 +74,7 @@ pub fn write_ascii(path: &Path, model: &Model) -> Result<Vec<String>, WriteError
         return Err(WriteError::NotAscii { path: path.to_owned() });
     }
     let mut lost = ply::write(path, model, true)?;
-    lost.extend(lost_images(model).into_iter().chain(lost_properties(model)));
+    lost.extend(lost_images(model).into_iter().chain(lost_in_all(model)));
     Ok(lost)
 }
 
@@ -109,14 +109,20 @@ pub fn write_quantised(path: &Path, model: &Model) -> Result<(f64, Vec<String>),
     }
     let moved = model.parts.iter().map(|part| quantise::Grid::for_mesh(&part.mesh).largest_error()).fold(0.0, f64::max);
     let mut lost = glb::write(path, model, true)?;
-    lost.extend(lost_properties(model));
+    lost.extend(lost_in_all(model));
     Ok((moved, lost))
 }
 
-/// The warning about numbers beside the meshes.
-fn lost_properties(model: &Model) -> Option<String> {
+/// Warnings about what no format is written with: numbers beside the meshes, animations.
+fn lost_in_all(model: &Model) -> impl Iterator<Item = String> + use<> {
     let names: Vec<&str> = model.properties.iter().map(|property| property.name.as_str()).collect();
-    (!names.is_empty()).then(|| format!("properties: {}", names.join(", ")))
+    let properties = (!names.is_empty()).then(|| format!("properties: {}", names.join(", ")));
+    let clips = model.animations.as_ref().map_or(0, |animations| animations.clips().len());
+    let animations = (clips > 0).then(|| format!("{clips} animations; the model is written in the pose of the file"));
+    let is_pbr = |source: &&SourceMaterial| matches!(source, SourceMaterial::MetallicRoughness(pbr) if pbr.specular_glossiness.is_some());
+    let glossy = model.materials.iter().filter(is_pbr).count();
+    let glossy = (glossy > 0).then(|| format!("{glossy} materials lose their specular color and glossiness"));
+    properties.into_iter().chain(animations).chain(glossy)
 }
 
 /// The warning about images that materials refer to.
