@@ -533,10 +533,6 @@ proptest! {
         let model = Model { origin, ..of_parts(vec![part("model", mesh.clone(), None)]) };
         let folder = Folder::new();
         for name in ["m.obj", "m.smf", "m.ply", "m.glb", "m.gltf"] {
-            // Those readers that keep an origin.
-            if far.is_some() && name != "m.smf" {
-                continue;
-            }
             let path = folder.path().join(name);
             write(&path, &model).unwrap();
             // Readers choose an origin of their own.

@@ -91,8 +91,9 @@ pub(super) fn open(json: &[u8]) -> Result<Opened, Fault> {
     Ok(Opened { document: Document::from_json_without_validation(root), beside, dropped_channels })
 }
 
-/// The JSON as the `gltf` crate's types, which take every channel of an animation to have a node; those that have none are
-/// left out and counted.
+/// The JSON as the `gltf` crate's types. They take every channel of an animation to have a node; those that have none are
+/// left out and counted. They take every number to fit into `f32`; those that do not become infinite, which is checked
+/// where they are used.
 fn root(json: &[u8]) -> Result<(Root, usize), Fault> {
     let error = match serde_json::from_slice(json) {
         Ok(root) => return Ok((root, 0)),
@@ -107,10 +108,9 @@ fn root(json: &[u8]) -> Result<(Root, usize), Fault> {
         channels.retain(|channel| channel.get("target").is_none_or(|target| target.get("node").is_some()));
         dropped += before - channels.len();
     }
-    if dropped == 0 {
-        return Err(error);
-    }
-    Ok((serde_json::from_value(value).map_err(|error| unreadable(&error))?, dropped))
+    let found = serde_json::from_value(value).map(|root| (root, dropped));
+    // The first error has a line.
+    found.map_err(|second| if dropped == 0 { error } else { unreadable(&second) })
 }
 
 /// Checks that the accessors of positions exist: the `gltf` crate's validation looks them up before checking.
