@@ -87,9 +87,8 @@ type Places<'w, 's> = Query<'w, 's, (&'static Transform, Option<&'static Origin>
 pub fn place_by_origins(
     origins: Query<&Origin>,
     cameras: Cameras,
-    parents: Query<&ChildOf>,
+    (parents, children): (Query<&ChildOf>, Query<&Children>),
     roots: Query<Entity, (With<Transform>, Without<ChildOf>)>,
-    children: Query<&Children>,
     mut places: Places,
     mut frame: ResMut<FrameOrigin>,
     mut was_needed: Local<bool>,

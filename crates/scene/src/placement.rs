@@ -25,7 +25,7 @@ const RANK: f64 = 1e-14;
 impl Placement {
     /// The transforms whose product is the affine matrix `m`, to the rounding of `f32` relative to its largest axis.
     pub(crate) fn from_matrix(m: &DMat4) -> Self {
-        let axes = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.truncate());
+        let axes = [m.x_axis, m.y_axis, m.z_axis].map(bevy_math::DVec4::truncate);
         let translation = m.w_axis.truncate().as_vec3();
         if perpendicular(&axes) {
             let (rotation, scale) = rotation_and_scale(axes, 0.0);

@@ -570,7 +570,7 @@ fn spawn_object(
             dress_whole(object, part, (handles, textures), frame, world);
         }
         ([], [lines]) if is_near && lines.object_from_part == Mat4::IDENTITY => {
-            dress_lines(object, lines, frame, world)
+            dress_lines(object, lines, frame, world);
         }
         _ => {
             spawn_parts(object, frame, shape, (handles, textures), world);

@@ -286,6 +286,8 @@ impl Skipped {
 
 #[cfg(test)]
 mod tests {
+    #![expect(clippy::float_cmp, reason = "the numbers of a text, to the last bit")]
+
     use super::*;
 
     #[test]

@@ -328,10 +328,10 @@ fn packed_views_are_unpacked() {
         let mesh = &model.parts[0].mesh;
         assert_eq!(mesh.positions(), [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)]);
         let mut triangles: Vec<[u32; 3]> = mesh.triangles().collect();
-        triangles.iter_mut().for_each(|corners| {
+        for corners in &mut triangles {
             let least = (0..3).min_by_key(|k| corners[*k]).unwrap();
             corners.rotate_left(least);
-        });
+        }
         assert_eq!(triangles, [[0, 1, 2], [1, 3, 2]]);
     }
     for (from, to, expected) in [

@@ -1,4 +1,7 @@
 //! OBJ and MTL files.
+#![expect(clippy::float_cmp, reason = "numbers that are whole fractions of powers of two, or copied")]
+
+use std::fmt::Write as _;
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use halfway_mesh::{Format, Model, MtlMaps, MtlMaterial, SourceMaterial, load, load_bytes};
@@ -128,6 +131,7 @@ fn material_libraries_may_have_spaces_or_several_names() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table of statements and their warnings")]
 fn skipped_contents_give_warnings() {
     let rows: [(&str, String, &[&str]); 17] = [
         (
@@ -623,7 +627,7 @@ fn errors_name_their_line_in_large_files() {
     // Several pieces that are read at once, with a continued line at every place where one may end.
     let mut text = String::new();
     for i in 0..60_000 {
-        text += &format!("v {i} 0 1\nv {i} 1 \\\n 0\nvt 0 0\nf -1/-1 -2/-1 1/1\n");
+        writeln!(text, "v {i} 0 1\nv {i} 1 \\\n 0\nvt 0 0\nf -1/-1 -2/-1 1/1").expect("a string");
     }
     let model = load_bytes(Format::Obj, text.as_bytes()).unwrap();
     assert_eq!((model.triangle_count(), model.parts[0].mesh.positions().len()), (60_000, 120_000));

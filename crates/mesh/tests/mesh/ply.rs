@@ -1,4 +1,5 @@
 //! PLY files, in ASCII and binary.
+#![expect(clippy::float_cmp, reason = "numbers that are whole fractions of powers of two, or copied")]
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use halfway_mesh::{Format, Model, ScalarValues, load_bytes};
@@ -347,7 +348,7 @@ fn large_binary_files_are_read_alike_with_and_without_the_short_way() {
             file.extend(&[1][..has_more]);
         }
     }
-    let [plain, with_more] = files.each_ref().map(|file| load(file));
+    let [plain, with_more] = files.each_ref().map(load);
     assert_eq!(plain.parts, with_more.parts);
     assert_eq!(plain.triangle_count(), 30_000 + 6_000 - 1 + 6);
     // The last corner of the last face.
