@@ -13,8 +13,8 @@ use crate::numbering::Numbering;
 /// `f32` positions.
 const CANCELLED: f64 = 1e-6;
 
-/// The normals and weights of so many triangles are computed by all threads before one thread adds them up in the order
-/// of the triangles: sums do not depend on the number of threads, and the block stays in the cache.
+/// The normals and weights of so many triangles are computed by all threads, while one thread adds up those of the block
+/// before in the order of the triangles: sums do not depend on the number of threads, and the block stays in the cache.
 const BLOCK: usize = 1 << 14;
 
 /// The normals of all vertices: one a point. `indices` has three a triangle, all in range.
@@ -63,20 +63,20 @@ impl Means {
         indices: &[u32],
         classes: usize,
         weighting: NormalWeighting,
-        class: impl Fn(usize) -> u32,
+        class: impl Fn(usize) -> u32 + Sync,
     ) -> Self {
         let mut report = NormalReport::default();
         let mut sums = vec![NormalSum::default(); classes];
-        let mut shares = Vec::new();
-        for (block, triangles) in indices.as_chunks::<3>().0.chunks(BLOCK).enumerate() {
-            triangles
-                .par_iter()
-                .with_min_len(PARALLEL_MIN)
-                .map(|triangle| {
-                    let face = Face::new(triangle.map(|i| positions[i as usize]))?;
-                    Some((face.n, face.weights(weighting)))
-                })
-                .collect_into_vec(&mut shares);
+        let blocks: Vec<&[[u32; 3]]> = indices.as_chunks().0.chunks(BLOCK).collect();
+        let share = |triangle: &[u32; 3]| {
+            let face = Face::new(triangle.map(|i| positions[i as usize]))?;
+            Some((face.n, face.weights(weighting)))
+        };
+        let compute = |block: usize, shares: &mut Vec<_>| {
+            let triangles = blocks.get(block).copied().unwrap_or_default();
+            triangles.par_iter().with_min_len(PARALLEL_MIN).map(share).collect_into_vec(shares);
+        };
+        let mut add = |block: usize, shares: &[Option<(DVec3, [f64; 3])>]| {
             for (triangle, share) in shares.iter().enumerate() {
                 let Some((n, weights)) = share else {
                     report.degenerate_triangles += 1;
@@ -87,6 +87,16 @@ impl Means {
                     sum.n += n * weight;
                     sum.weights += weight;
                 }
+            }
+        };
+        let (mut shares, mut next) = (Vec::new(), Vec::new());
+        compute(0, &mut shares);
+        if blocks.len() == 1 {
+            add(0, &shares);
+        } else {
+            for block in 0..blocks.len() {
+                rayon::join(|| add(block, &shares), || compute(block + 1, &mut next));
+                std::mem::swap(&mut shares, &mut next);
             }
         }
         let (normals, cancelled) = settle(&sums);
@@ -128,18 +138,12 @@ impl Means {
 
 /// The means that did not vanish, zero for the others, and the classes with weights whose mean vanished.
 fn settle(sums: &[NormalSum]) -> (Vec<Vec3>, HashMap<u32, Largest>) {
-    let mut cancelled = HashMap::new();
-    let settled = |(class, sum): (usize, &NormalSum)| {
+    let settled = |sum: &NormalSum| {
         let length = sum.n.length();
-        if length > CANCELLED * sum.weights {
-            (sum.n / length).as_vec3()
-        } else {
-            if sum.weights > 0.0 {
-                cancelled.insert(class as u32, Largest::default());
-            }
-            Vec3::ZERO
-        }
+        if length > CANCELLED * sum.weights { (sum.n / length).as_vec3() } else { Vec3::ZERO }
     };
-    let normals = sums.iter().enumerate().map(settled).collect();
+    let normals: Vec<Vec3> = sums.par_iter().with_min_len(PARALLEL_MIN).map(settled).collect();
+    let vanished = sums.iter().zip(&normals).enumerate().filter(|(_, (sum, n))| **n == Vec3::ZERO && sum.weights > 0.0);
+    let cancelled = vanished.map(|(class, _)| (class as u32, Largest::default())).collect();
     (normals, cancelled)
 }

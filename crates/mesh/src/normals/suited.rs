@@ -11,7 +11,6 @@ use crate::Mesh;
 #[cfg(feature = "formats")]
 use crate::Model;
 use crate::edges::Edges;
-#[cfg(feature = "formats")]
 use crate::numbering::Numbering;
 use rayon::prelude::*;
 
@@ -61,16 +60,12 @@ impl Mesh {
 
     /// The angle above which edges are sharp, in degrees; `None` where no edges stand apart.
     fn crease(&self) -> Option<f32> {
-        let points = self.points();
-        // The share that is counted is one in a power of two.
-        let halvings = (self.triangle_count() / COUNTED).checked_ilog2().unwrap_or(0).min(20);
-        // Neighbours in the numbering are often neighbours in space, so the product scatters them.
-        let is_taken = |point: u32| halvings == 0 || point.wrapping_mul(0x9e37_79b1) >> (32 - halvings) == 0;
-        let edges = Edges::at_points(points.triangles(self.indices()), is_taken);
+        let halvings = self.halvings();
+        let (taken, edges) = self.some_edges(&self.points(), halvings);
         // Where most triangles are asked for, and each by several edges.
         let all = if halvings < 2 { face_normals(self.positions(), self.indices()) } else { Vec::new() };
         let normal = |pass: u32| {
-            let triangle = pass as usize / 3;
+            let triangle = taken[pass as usize / 3] as usize;
             let made = || {
                 let [a, b, c] = self.indices().as_chunks::<3>().0[triangle].map(|i| self.positions()[i as usize]);
                 face_normal(a, b, c)
@@ -106,18 +101,44 @@ impl Mesh {
     /// assert!(Mesh::from(Plane::default()).is_open() && !Mesh::from(Cuboid::default()).is_open());
     /// ```
     pub fn is_open(&self) -> bool {
-        let triangles = self.points().triangles(self.indices());
+        let points = self.points();
         // Where every edge has an even number of triangles, the numbers of all ends cancel out; that they do so
         // elsewhere is less likely than a fault of the machine.
-        let mut sum = 0_u64;
-        for &[a, b, c] in &triangles {
-            for [from, to] in [[a, b], [b, c], [c, a]] {
-                if from != to {
-                    sum ^= scattered(u64::from(from.min(to)) << 32 | u64::from(from.max(to)));
-                }
-            }
+        let sum_of = |triangles: &[[u32; 3]]| {
+            let sides = triangles.iter().map(|triangle| triangle.map(|vertex| points.numbers[vertex as usize]));
+            let sides = sides.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).filter(|[from, to]| from != to);
+            sides.fold(0, |sum, [a, b]| sum ^ scattered(u64::from(a.min(b)) << 32 | u64::from(a.max(b))))
+        };
+        let triangles = self.indices().as_chunks().0;
+        let sum = triangles.par_chunks(1 << 16).map(sum_of).reduce(|| 0, |a, b| a ^ b);
+        let has_border = |halvings: u32| {
+            let (_, edges) = self.some_edges(&points, halvings);
+            edges.iter().any(|edge| edge.passes.len() == 1)
+        };
+        let halvings = self.halvings();
+        // A border is soon found at some of the points; if it is not, all are looked at.
+        sum != 0 && ((halvings > 0 && has_border(halvings)) || has_border(0))
+    }
+
+    /// How many times the points are halved, at whose share of a power of two edges are looked at.
+    fn halvings(&self) -> u32 {
+        (self.triangle_count() / COUNTED).checked_ilog2().unwrap_or(0).min(20)
+    }
+
+    /// The edges at some of the points, whose passes are of the triangles whose numbers are given.
+    fn some_edges(&self, points: &Numbering, halvings: u32) -> (Vec<u32>, Edges) {
+        // Neighbours in the numbering are often neighbours in space, so the product scatters them.
+        let is_taken = |point: u32| halvings == 0 || point.wrapping_mul(0x9e37_79b1) >> (32 - halvings) == 0;
+        let triangles = self.indices().as_chunks::<3>().0;
+        if halvings == 0 {
+            return ((0..triangles.len() as u32).collect(), Edges::new(points.triangles(self.indices())));
         }
-        sum != 0 && Edges::new(triangles).iter().any(|edge| edge.passes.len() == 1)
+        let around = triangles.par_iter().enumerate().with_min_len(1 << 14).filter_map(|(number, triangle)| {
+            let triangle = triangle.map(|vertex| points.numbers[vertex as usize]);
+            triangle.into_iter().any(is_taken).then_some((number as u32, triangle))
+        });
+        let (numbers, triangles): (Vec<_>, Vec<_>) = around.unzip();
+        (numbers, Edges::at_points(triangles, is_taken))
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use glam::Vec3;
-use halfway_mesh::{Cuboid, Format, Icosphere, Mesh, NormalWeighting, Normals, Plane, Teapot, load_bytes};
+use halfway_mesh::{Cuboid, Format, Icosphere, Mesh, NormalWeighting, Normals, Plane, Subdivision, Teapot, load_bytes};
 
 const SMOOTH: Normals = Normals::Weighted(NormalWeighting::Max);
 
@@ -115,4 +115,15 @@ fn open_meshes_have_a_border() {
     assert!(!bare(Icosphere::default()).is_open());
     // The sides of the box share no vertices, but positions.
     assert!(!Mesh::from(Cuboid::default()).is_open());
+    // So large that the edges at some of the points are looked at first. A second face in the place of one of the
+    // tetrahedron's gives three triangles to each of its sides: no border either.
+    let points = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+    let (closed, second) = (vec![0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3], vec![0, 1, 2]);
+    for (indices, is_open) in
+        [(closed.clone(), false), ([closed.clone(), second].concat(), false), (closed[..9].to_vec(), true)]
+    {
+        let mesh = Mesh::new(points.clone(), indices).unwrap().subdivided(Subdivision::Midpoint, 7).unwrap();
+        assert!(mesh.triangle_count() > 30_000);
+        assert_eq!(bare(mesh).is_open(), is_open);
+    }
 }
