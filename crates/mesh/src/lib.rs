@@ -1,9 +1,10 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Features
-//! Both are on by default.
+//! All are on by default.
 //! - `ecs`: [`Mesh3d`], [`Lines3d`], [`MeshPlugin`] and [`SpawnOrder`]. Without it the crate has no ECS below it.
 //! - `formats`: reading and writing of model files: [`load`], [`write`](write()), [`Model`] and its parts.
+//! - `threemf`: 3MF among them, for which 15 more crates are built.
 
 #[cfg(feature = "formats")]
 mod animation;

@@ -410,6 +410,7 @@ impl Mesh {
     }
 
     /// The mesh with its normals marked as those of the default weighting, which nobody gave.
+    #[cfg(feature = "formats")]
     pub(crate) fn with_normals_as_default(self) -> Self {
         self.changed(|data| data.notes.normals = NormalOrigin::Default)
     }

@@ -12,6 +12,7 @@ mod source;
 mod srgb;
 mod stl;
 mod text;
+#[cfg(feature = "threemf")]
 mod threemf;
 mod write;
 
@@ -153,7 +154,15 @@ fn parse(format: Format, source: Source) -> Result<Model, LoadError> {
         Format::Ply => ply::parse(source),
         Format::Stl => stl::parse(source),
         Format::Off => off::parse(source),
+        #[cfg(feature = "threemf")]
         Format::ThreeMf => threemf::parse(source),
+        #[cfg(not(feature = "threemf"))]
+        Format::ThreeMf => Err(LoadError::Element {
+            path: path.to_owned(),
+            element: "3MF".to_owned(),
+            found: "a build of halfway_mesh without its feature `threemf`".to_owned(),
+            expected: "one with it is".to_owned(),
+        }),
     }?;
     if model.is_empty() {
         let skipped = model.warnings.into_iter().next();

@@ -109,10 +109,11 @@ struct Part {
 }
 
 /// The crates that serve without an ECS.
-const PARTS: [Part; 3] = [
+const PARTS: [Part; 4] = [
     Part { name: "halfway_lighting", features: "", most_crates: 12 },
     Part { name: "halfway_mesh", features: "", most_crates: 18 },
-    Part { name: "halfway_mesh", features: "formats", most_crates: 33 },
+    Part { name: "halfway_mesh", features: "formats", most_crates: 34 },
+    Part { name: "halfway_mesh", features: "threemf", most_crates: 49 },
 ];
 
 impl Part {
