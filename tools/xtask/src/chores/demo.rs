@@ -27,7 +27,7 @@ pub(crate) struct Options {
     /// Record, even where a display is
     #[arg(long)]
     headless: bool,
-    /// The model under the lights: an .smf, .obj, .gltf, .glb, .ply, .stl, .off or .3mf file; assets/teapot.obj unless given
+    /// The model under the lights (.smf, .obj, .gltf, .glb, .ply, .stl, .off, .3mf); assets/teapot.obj unless given
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
 }
