@@ -95,7 +95,7 @@ impl Entry for f64 {
         schema
     }
 
-    /// What is drawn is in `f32` in the end, and so are ranges.
+    /// Ranges are in `f32`, as everything that is drawn.
     fn check(&self, limits: &Limits) -> Check {
         (*self as f32).check(limits)
     }

@@ -589,7 +589,7 @@ pub(crate) fn spawn_parts(
     (handles, textures): (&mut Handles, &mut TextureHandles),
     world: &mut World,
 ) -> Vec<Entity> {
-    // What moves may shear at some time.
+    // A moving part may shear at some time.
     let place = |object_from_part: &Mat4| {
         let placement = Placement::from_matrix(&object_from_part.as_dmat4());
         let inner = shape.animations.as_ref().map(|_| placement.inner.unwrap_or_default());

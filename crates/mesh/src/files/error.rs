@@ -112,7 +112,7 @@ pub enum LoadError {
         path: PathBuf,
         /// The extension's name.
         extension: String,
-        /// What writes the file without it, after a semicolon; empty where nothing is known to.
+        /// A program that writes the file without it, after a semicolon; empty where none is known.
         remedy: &'static str,
     },
 }

@@ -46,7 +46,7 @@ struct Off {
     skipped: Skipped,
 }
 
-/// What each vertex has beside its position.
+/// The numbers of a vertex beside its position.
 #[derive(Clone, Copy, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "one for each mark before `OFF`")]
 struct Variant {

@@ -357,7 +357,7 @@ mod tests {
         assert_eq!(lines_of(b"a\r\nb\r\n"), ["a\r\n", "b\r\n"]);
         assert_eq!(lines_of(b"a\rb\r\rc"), ["a\r", "b\r", "\r", "c"]);
         assert_eq!(lines_of(b"a\nb\rc\r\n"), ["a\n", "b\r", "c\r\n"]);
-        // What follows a header of such lines may begin with the byte of an LF.
+        // The body after a header of such lines may begin with the byte of an LF.
         assert_eq!(lines_of(b"ply\rend\r\n"), ["ply\r", "end\r", "\n"]);
     }
 

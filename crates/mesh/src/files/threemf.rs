@@ -66,7 +66,7 @@ struct Document {
 #[derive(Default)]
 struct Object {
     name: String,
-    /// What its triangles are made of if they do not say: a group and a number in it.
+    /// The property of triangles that name none: a group and a number in it.
     property: Option<(u32, u32)>,
     vertices: Vec<DVec3>,
     triangles: Vec<Triangle>,

@@ -17,11 +17,11 @@ pub(super) const BASISU: &str = "KHR_texture_basisu";
 /// Triangles that Draco packed.
 pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
 
-/// Those that are read, besides what the `gltf` crate reads.
+/// The extensions that are read here, besides those of the `gltf` crate.
 const READ: [&str; 3] = [QUANTIZATION, INSTANCING, WEBP];
 
-/// What the names of those begin with that change how a model looks, moves or is described, but not its shape: files that
-/// require them are shown without.
+/// The beginnings of the names of extensions that change how a model looks, moves or is described, but not its shape:
+/// files that require them are shown without.
 const LESS: [&str; 16] = [
     "KHR_materials_",
     "EXT_materials_",

@@ -19,7 +19,7 @@ pub(super) enum Fault {
     },
     RequiredExtension {
         extension: String,
-        /// What writes the file without it, after a semicolon.
+        /// A program that writes the file without it, after a semicolon.
         remedy: &'static str,
     },
     /// An error in a file that the document refers to, complete.

@@ -142,7 +142,7 @@ impl Draft {
     ) -> Result<(Part, Option<Unsmoothed>), LoadError> {
         let Self { name, corners, indices, groups, .. } = self;
         let mut keys = corners.into_keys();
-        // What the file does not define, which a warning has said.
+        // Numbers beyond those that the file defines, of which a warning has told.
         let [_, uvs, normals] = vertices.counts().map(|count| count as u32);
         for [_, uv, normal] in &mut keys {
             *uv = if *uv > uvs { 0 } else { *uv };

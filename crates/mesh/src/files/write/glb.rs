@@ -516,7 +516,7 @@ impl Maps {
         let start = file.data.len();
         file.data.extend_from_slice(&map.bytes);
         file.views.push(json!({ "buffer": 0, "byteOffset": start, "byteLength": map.bytes.len() }));
-        // What follows starts at a multiple of four bytes.
+        // The next view starts at a multiple of four bytes.
         file.data.resize(file.data.len().next_multiple_of(4), 0);
         Some(json!({ "bufferView": file.views.len() - 1, "mimeType": kind }))
     }

@@ -90,7 +90,7 @@ fn lost(model: &Model, is_cloud: bool, has_colors: bool) -> Vec<String> {
     lost
 }
 
-/// What each vertex has beside its position.
+/// The columns of a vertex beside its position.
 #[expect(clippy::struct_excessive_bools, reason = "one for each group of columns")]
 struct Columns {
     normals: bool,
