@@ -95,10 +95,9 @@ pub fn place_by_origins(
 ) {
     let is_needed = origins.iter().any(|origin| origin.0 != DVec3::ZERO);
     // Once more after the last one has gone.
-    if !is_needed && !std::mem::replace(&mut *was_needed, is_needed) {
+    if !std::mem::replace(&mut *was_needed, is_needed) && !is_needed {
         return;
     }
-    *was_needed = is_needed;
     let camera = cameras.current().ok();
     let origin = camera.map_or(DVec3::ZERO, |camera| origin_above(camera, &parents, &places));
     frame.set_if_neq(FrameOrigin(origin));
