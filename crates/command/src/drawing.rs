@@ -43,6 +43,10 @@ pub(crate) struct DrawingArgs {
     /// first, or one that frames everything]
     #[arg(long, value_name = "NAME|N")]
     pub(crate) camera: Option<String>,
+    /// The animation of the models that is played, by this name, or the N-th, counted from 0 [default: the scene's; the
+    /// first]
+    #[arg(long, value_name = "NAME|N")]
+    animation: Option<String>,
     #[command(flatten)]
     pub(crate) tolerance: ToleranceArgs,
     #[command(flatten)]
@@ -83,6 +87,7 @@ impl DrawingArgs {
             tolerance: self.tolerance.given(),
             samples: self.samples,
             intensity: self.intensity,
+            animation: self.animation.clone(),
             ..SceneOptions::default()
         };
         self.framing.put_into(&mut options);

@@ -147,6 +147,9 @@ fn print_model(file: &Path, model: &Model, levels: bool) {
     for camera in &model.cameras {
         println!("camera     \"{}\": {}", camera.name, projection(camera.projection));
     }
+    for (number, clip) in model.animations.iter().flat_map(|animations| animations.clips().iter().enumerate()) {
+        println!("animation  {number} \"{}\": {} s", clip.name, clip.duration);
+    }
     for warning in &model.warnings {
         println!("warning    {warning}");
     }

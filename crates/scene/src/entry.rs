@@ -180,6 +180,11 @@ impl<T: Entry> Entry for Option<T> {
     fn schema(definitions: &mut Map<String, Value>, limits: &Limits) -> Value {
         let mut schema = T::schema(definitions, limits);
         match schema.get("type").cloned() {
+            Some(Value::Array(mut names)) => {
+                names.push(json!("null"));
+                schema["type"] = Value::Array(names);
+                schema
+            }
             Some(name) => {
                 schema["type"] = json!([name, "null"]);
                 schema

@@ -75,6 +75,9 @@ keys! {
         /// The lights: a list, or a rig that follows the camera. null or left out: those of the models, or a key light, a
         /// fill light and a headlight where the models have none. An empty list: no lights.
         lights: Option<LightsEntry> = None,
+        /// The animation of the models (glTF) that is played, by its name or its number; models without it play their
+        /// first. null: the first of each.
+        animation: Option<NameOrIndex> = None,
         /// The objects.
         objects: Vec<ObjectEntry> = Vec::new(),
         [not in the file]

@@ -9,7 +9,9 @@ use halfway_asset::Assets;
 use halfway_lighting::rotation_along;
 use halfway_mesh::{Animations, Mesh, Mesh3d, Normals};
 
+use crate::error::SceneError;
 use crate::import::camera_place;
+use crate::named::NameOrIndex;
 use crate::placement::Placement;
 
 /// The animation of a model, on the entity of its object.
@@ -34,14 +36,51 @@ pub(crate) struct ModelAnimation {
     pub(crate) shown: Option<f64>,
 }
 
-/// A sentence on which of several animations is played.
-pub(crate) fn which_is_played(animations: &Animations) -> Option<String> {
-    let name = |number: usize| match animations.clips()[number].name.as_str() {
-        "" => number.to_string(),
-        name => format!("{name:?}"),
-    };
-    let others: Vec<String> = (1..animations.clips().len()).map(name).collect();
-    (!others.is_empty()).then(|| format!("the animation {} is played, and not {}", name(0), others.join(", ")))
+/// The animations of the models of a scene that are played: of each model the one that is wanted, else its first.
+#[derive(Default)]
+pub(crate) struct Chosen<'a> {
+    wanted: Option<&'a NameOrIndex>,
+    is_found: bool,
+    /// The animations of each file, as a clause.
+    known: Vec<String>,
+}
+
+impl<'a> Chosen<'a> {
+    pub(crate) fn new(wanted: Option<&'a NameOrIndex>) -> Self {
+        Self { wanted, ..Self::default() }
+    }
+
+    /// The number of the animation of a model that is played, and a sentence where that has to be said.
+    pub(crate) fn clip(&mut self, animations: &Animations, file: &str) -> (usize, Option<String>) {
+        let names: Vec<&str> = animations.clips().iter().map(|clip| clip.name.as_str()).collect();
+        let name =
+            |number: usize| if names[number].is_empty() { number.to_string() } else { format!("{:?}", names[number]) };
+        let Some(wanted) = self.wanted else {
+            let others: Vec<String> = (1..names.len()).map(name).collect();
+            let said = format!("{file}: the animation {} is played, and not {}", name(0), others.join(", "));
+            return (0, (!others.is_empty()).then_some(said));
+        };
+        let found = wanted.find_by_text(names.iter().map(|name| Some(*name)));
+        self.is_found |= found.is_some();
+        self.known.push(format!("{file} has {}", listed(&names)));
+        let said = format!("{file}: has no animation {wanted}; {} is played", name(0));
+        (found.unwrap_or(0), found.is_none().then_some(said))
+    }
+
+    /// # Errors
+    /// The wanted animation is one of no model.
+    pub(crate) fn check(&self) -> Result<(), SceneError> {
+        let Some(wanted) = self.wanted.filter(|_| !self.is_found) else { return Ok(()) };
+        let known = if self.known.is_empty() { "the models have none".to_owned() } else { self.known.join("; ") };
+        Err(SceneError::Value { key: "animation".to_owned(), message: format!("is {wanted}; {known}") })
+    }
+}
+
+/// Names with their numbers.
+fn listed(names: &[&str]) -> String {
+    let each = names.iter().enumerate();
+    let each = each.map(|(i, name)| if name.is_empty() { i.to_string() } else { format!("{i} {name:?}") });
+    each.collect::<Vec<_>>().join(", ")
 }
 
 /// Gives the entities of every animated model their places and vertices at a time in seconds.

@@ -158,7 +158,7 @@ fn fill(root: Entity, file: &Path, world: &mut World) -> Result<ModelParts, Mode
         return Err(SceneError::NoMeshAssets.into());
     }
     let object = ObjectEntry::new(MeshEntry::Path(file.to_owned()));
-    let mut shapes = Shapes::new(Path::new(""));
+    let mut shapes = Shapes::new(Path::new(""), None);
     let shape = shapes.load_once(&object, 0)?;
     for warning in shapes.warnings.iter().chain(&shapes.unused_cameras) {
         log::warn!("{warning}");

@@ -17,7 +17,8 @@ use halfway_texture::{FarNormals, MapKind, Pyramid, SurfaceMap, TexelImage, Texe
 use crate::error::SceneError;
 use crate::import::{ModelMaterial, channel, maps, model_light, sampling, transform};
 use crate::mesh::{LoadedModel, MeshEntry};
-use crate::model_animation::which_is_played;
+use crate::model_animation::Chosen;
+use crate::named::NameOrIndex;
 use crate::object::ObjectEntry;
 use crate::options::{finish, unknown_material};
 use crate::scalars::{ColorMap, Scalars};
@@ -32,8 +33,8 @@ pub(crate) struct ObjectShape {
     pub(crate) cameras: Vec<SourceCamera>,
     /// The point of the object from which the places of all of them are counted.
     pub(crate) origin: DVec3,
-    /// How the model moves.
-    pub(crate) animations: Option<Arc<Animations>>,
+    /// How the model moves, and the number of the animation that is played.
+    pub(crate) animations: Option<(Arc<Animations>, usize)>,
 }
 
 /// One mesh of a shape, where it stands inside the object.
@@ -95,11 +96,14 @@ pub(crate) struct Shapes<'a> {
     pub(crate) warnings: Vec<String>,
     /// Warnings about models whose cameras are not used.
     pub(crate) unused_cameras: Vec<String>,
+    pub(crate) chosen: Chosen<'a>,
 }
 
 impl<'a> Shapes<'a> {
-    pub(crate) fn new(base_dir: &'a Path) -> Self {
-        Self { base_dir, loaded: HashMap::new(), warnings: Vec::new(), unused_cameras: Vec::new() }
+    /// None yet; models play the wanted animation.
+    pub(crate) fn new(base_dir: &'a Path, wanted: Option<&'a NameOrIndex>) -> Self {
+        let chosen = Chosen::new(wanted);
+        Self { base_dir, loaded: HashMap::new(), warnings: Vec::new(), unused_cameras: Vec::new(), chosen }
     }
 
     /// The shape of object `index`; equal ones are loaded once.
@@ -279,14 +283,17 @@ impl<'a> Shapes<'a> {
             object_from_part: part.world_from_part,
             own: part.material.and_then(|material| materials.get(material)).copied(),
         });
-        let which = model.animations.as_ref().and_then(|animations| which_is_played(animations));
-        self.warnings.extend(which.map(|sentence| format!("{file}: {sentence}")));
-        let moves_vertices = model.animations.as_ref().is_some_and(|animations| animations.moves_vertices());
+        let animations = model.animations.map(|animations| {
+            let (clip, said) = self.chosen.clip(&animations, &file.to_string());
+            self.warnings.extend(said);
+            (animations, clip)
+        });
+        let moves_vertices = animations.as_ref().is_some_and(|(animations, _)| animations.moves_vertices());
         if moves_vertices && (object.displacement.is_some() || object.scalars.is_some()) {
             let because = "since they are displaced or show numbers";
             self.warnings.push(format!("{file}: vertices keep the pose of the file, {because}"));
         }
-        let (lines, cameras, animations) = (lines.collect(), model.cameras, model.animations);
+        let (lines, cameras) = (lines.collect(), model.cameras);
         Ok(ObjectShape { parts, lines, lights, cameras, animations, origin: model.origin })
     }
 

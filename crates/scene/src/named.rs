@@ -41,6 +41,15 @@ impl NameOrIndex {
         }
         .map(|(index, _)| index)
     }
+
+    /// The same, where a name that is none of them may be a number as text, such as that of an option.
+    pub(crate) fn find_by_text<'a>(&self, names: impl Iterator<Item = Option<&'a str>> + Clone) -> Option<usize> {
+        let by_number = || match self {
+            Self::Name(text) => Self::Index(text.parse().ok()?).find(names.clone()),
+            Self::Index(_) => None,
+        };
+        self.find(names.clone()).or_else(by_number)
+    }
 }
 
 /// As messages have it.

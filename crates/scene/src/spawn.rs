@@ -146,8 +146,8 @@ fn placed_as(entry: &CameraEntry) -> CameraEntry {
 /// - Where the scene has no camera, one is made that frames all objects ([`framing_camera`]).
 /// - Where an object has no material, its model's own materials are used, translated by
 ///   [`import`](crate::import), with their double-sidedness, blending and masks unless the object says otherwise.
-/// - The first of the animations of a model (glTF) is played, where the App has an
-///   [`AnimationPlugin`](crate::AnimationPlugin); otherwise its parts are in the pose of the file.
+/// - Of the animations of a model (glTF) the one that [`SceneFile::animation`] names, else the first is played, where the
+///   App has an [`AnimationPlugin`](crate::AnimationPlugin); otherwise its parts are in the pose of the file.
 /// - With a model's own materials come their images, where the world has `Assets<Texture>`. An image that cannot be
 ///   read gives a warning and is replaced by a checker.
 /// - Where the scene has no `lights`, the models' own lights shine (`KHR_lights_punctual`), attached to their object;
@@ -192,13 +192,14 @@ fn spawn_seen(
     if scene.objects.iter().any(has_images) && !world.contains_resource::<Assets<Texture>>() {
         return Err(SceneError::NoTextureAssets);
     }
-    let mut shapes = Shapes::new(base_dir);
+    let mut shapes = Shapes::new(base_dir, scene.animation.as_ref());
     let objects = scene
         .objects
         .iter()
         .enumerate()
         .map(|(i, object)| Ok((object, shapes.load_once(object, i)?)))
         .collect::<Result<Vec<_>, SceneError>>()?;
+    shapes.chosen.check()?;
 
     let sharing = scene.all_cameras().filter(|camera| wanted.is_none() && camera.viewport.is_some());
     let sharing: Vec<_> = sharing.cloned().map(SeenFrom::Entry).collect();
@@ -295,9 +296,7 @@ impl SeenFrom {
                 of_models().map(|(i, k)| Some(objects[i].1.cameras[k].name.as_str()).filter(|name| !name.is_empty())),
             )
             .collect();
-        let by_name = NameOrIndex::from(wanted).find(names.iter().copied());
-        let by_number = || NameOrIndex::Index(wanted.parse().ok()?).find(names.iter().copied());
-        let Some(found) = by_name.or_else(by_number) else {
+        let Some(found) = NameOrIndex::from(wanted).find_by_text(names.iter().copied()) else {
             let listed = names.iter().enumerate().map(|(i, name)| match name {
                 Some(name) => format!("{i} {name:?}"),
                 None => i.to_string(),
@@ -609,10 +608,10 @@ pub(crate) fn spawn_parts(
         entity
     };
     let lines: Vec<Entity> = shape.lines.iter().enumerate().map(spawn_lines).collect();
-    if let Some(animations) = &shape.animations {
+    if let Some((animations, clip)) = &shape.animations {
         world.entity_mut(frame).insert(ModelAnimation {
             animations: Arc::clone(animations),
-            clip: 0,
+            clip: *clip,
             parts: parts.clone(),
             lines: lines.clone(),
             lights: Vec::new(),

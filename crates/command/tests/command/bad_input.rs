@@ -215,6 +215,10 @@ const TIMES_AND_CAMERAS: &[(&[&str], &[&str])] = &[
     (&["render", "fine.json", "-o", "a.png", "--fps", "10"], &["--fps", "--frames or --turntable"]),
     (&["render", "fine.json", "-o", "a.png", "--turntable", "0"], &["--turntable", "1..=100000"]),
     (&["render", "fine.json", "-o", "a.png", "--camera", "top"], &["--camera", "\"top\"", "fine.json", "any"]),
+    (
+        &["render", "fine.json", "-o", "a.png", "--animation", "go"],
+        &["fine.json: `animation`: is \"go\"; the models have none"],
+    ),
     (&["render", "two.json", "-o", "a.png", "--camera", "top"], &["\"top\"; there are 0, 1 \"side\""]),
     (&["verify", "shared.json", "-o", "a.png"], &["shared.json", "share the picture", "--camera"]),
     (&["render", "beyond.json", "-o", "a.png"], &["beyond.json", "viewport.fractions", "beyond the picture"]),

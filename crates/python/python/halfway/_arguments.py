@@ -50,6 +50,7 @@ class Options(TypedDict, total=False):
     point_size: float | str
     hidden_lines: bool
     show: str | Sequence[str]
+    animation: str | int
 
 
 def size_of(size: object) -> tuple[int, int]:

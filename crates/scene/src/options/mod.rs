@@ -125,6 +125,8 @@ options! {
     hidden_lines: bool = parse::switch,
     /// Lines that explain the scene.
     show: Show = parse::show,
+    /// The animation of the models that is played, by its name or its number, counted from 0.
+    animation: String = parse::words,
 }
 
 impl SceneOptions {
@@ -148,6 +150,9 @@ impl SceneOptions {
         }
         if let Some(intensity) = self.intensity {
             scene.intensity = intensity;
+        }
+        if let Some(animation) = &self.animation {
+            scene.animation = Some(animation.as_str().into());
         }
         self.apply_samples(scene);
         self.apply_looks(scene);

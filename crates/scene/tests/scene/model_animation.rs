@@ -9,7 +9,11 @@ use bevy_transform::components::GlobalTransform;
 use halfway_asset::Assets;
 use halfway_lighting::PointLight;
 use halfway_mesh::{Mesh, Mesh3d};
-use halfway_scene::{AnimationPlugin, ModelParts, SceneFile, SceneTime, spawn, spawn_model, spawn_seen_from};
+use halfway_scene::options::SceneOptions;
+use halfway_scene::{
+    AnimationPlugin, MeshEntry, ModelParts, NameOrIndex, ObjectEntry, SceneFile, SceneTime, spawn, spawn_model,
+    spawn_seen_from,
+};
 
 use crate::spawned::app;
 
@@ -127,6 +131,58 @@ fn a_model_follows_the_time_of_the_scene() {
             assert!(place.distance(Vec3::new(2.0 * time, 0.0, 5.0)) < 1e-5, "{time}: {place}");
         }
     }
+}
+
+/// The second animation stands still where the first one has gone by 3 after 1.5 seconds.
+#[test]
+fn an_animation_is_chosen_by_name_or_number() {
+    let (file, other) = (ModelFile::new("chosen"), ModelFile::new("chosen_beside"));
+    std::fs::write(&other.0, moving().replace("\"stay\"", "\"rest\"")).unwrap();
+    let model = SceneFile::for_model;
+    let chosen = |animation: &str, mut scene: SceneFile| {
+        let animation = SceneOptions { animation: Some(animation.to_owned()), ..SceneOptions::default() };
+        animation.apply(&mut scene);
+        scene
+    };
+    let by_number = SceneFile { animation: Some(NameOrIndex::Index(1)), ..model(&file.0) };
+    let read = SceneFile::from_json(&by_number.to_json().unwrap(), "test").unwrap();
+    assert_eq!(read.animation, by_number.animation);
+    for (scene, gone) in [
+        (model(&file.0), 1.5),
+        (chosen("go", model(&file.0)), 1.5),
+        (chosen("stay", model(&file.0)), 0.0),
+        (chosen("1", model(&file.0)), 0.0),
+        (by_number, 0.0),
+    ] {
+        let mut app = app();
+        app.add_plugins(AnimationPlugin);
+        let spawned = spawn(&scene, Path::new(""), app.world_mut()).unwrap();
+        let is_said = spawned.warnings.iter().any(|warning| warning.contains("is played"));
+        assert_eq!(is_said, scene.animation.is_none(), "{:?}", spawned.warnings);
+        at(&mut app, 1.5);
+        let world = app.world_mut();
+        let triangle = world.query_filtered::<Entity, With<Mesh3d>>().single(world).unwrap();
+        let place = placed(world, triangle).w_axis.truncate();
+        assert!(place.distance(Vec3::X * 2.0 * gone) < 1e-5, "{:?}: {place}", scene.animation);
+    }
+
+    // Of two models one has it, and the other plays its first.
+    let objects = [&file, &other].map(|file| ObjectEntry::new(MeshEntry::Path(file.0.clone()))).to_vec();
+    let both = SceneFile { objects, ..SceneFile::default() };
+    let spawned = spawn(&chosen("stay", both.clone()), Path::new(""), app().world_mut()).unwrap();
+    let said = format!("{}: has no animation \"stay\"; \"go\" is played", other.0.display());
+    assert!(spawned.warnings.contains(&said), "{:?}", spawned.warnings);
+    let (first, second) = (file.0.display(), other.0.display());
+    for wanted in ["walk", "2"] {
+        let error = spawn(&chosen(wanted, both.clone()), Path::new(""), app().world_mut()).unwrap_err();
+        let expected = format!(
+            r#"scene: `animation`: is "{wanted}"; {first} has 0 "go", 1 "stay"; {second} has 0 "go", 1 "rest""#
+        );
+        assert_eq!(error.to_string(), expected);
+    }
+    let still = chosen("go", SceneFile::from_json(r#"{"objects": [{"mesh": {"teapot": {}}}]}"#, "test").unwrap());
+    let error = spawn(&still, Path::new(""), app().world_mut()).unwrap_err();
+    assert_eq!(error.to_string(), r#"scene: `animation`: is "go"; the models have none"#);
 }
 
 #[test]
