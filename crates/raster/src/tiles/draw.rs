@@ -163,7 +163,13 @@ impl Worker {
         if work.state.stage == Stage::Flat || work.state.opposite_normals {
             self.faces.fill(simd, place, work.instance, state, [fronts & shown, backs & shown]);
         }
-        self.vertices.light(simd, place, work.instance, state, groups_of::<S>(triangles, shown));
+        // Where the lights of vertices are summed, only those are lit that triangles need.
+        let groups = if matches!(work.state.stage, Stage::Vertex | Stage::Mixed) || work.state.maps.is_some() {
+            groups_of::<S>(triangles, shown)
+        } else {
+            (1 << (work.piece.vertex_count as usize).div_ceil(lanes::<S>())) - 1
+        };
+        self.vertices.light(simd, place, work.instance, state, groups);
         let one = work.covering.is_plain && work.covering.samples == Samples::One;
         // In their order, which matters for blended and coincident surfaces.
         let mut left = shown;
@@ -185,7 +191,8 @@ impl Worker {
     /// Finds the triangles of a piece that may be visible, and those that may show their fronts and backs.
     #[inline(always)]
     fn find_shown<S: Simd>(&mut self, simd: S, work: &Work, triangles: &[[u8; 3]]) -> (u64, [u64; 2]) {
-        self.corners.fill(triangles, &self.vertices);
+        let (first, vertex_count) = (work.piece.triangles.start as usize, work.piece.vertex_count as usize);
+        self.corners.fill(simd, (&work.mesh.triangles[first..], triangles.len()), &self.vertices, vertex_count);
         let (mut shown, mut fronts, mut backs) = (0, 0, 0);
         for (at, batch) in (0..triangles.len()).step_by(lanes::<S>()).zip(&mut *self.batches) {
             batch.fill(simd, &self.corners, at, (triangles.len() - at).min(lanes::<S>()), &work.covering);

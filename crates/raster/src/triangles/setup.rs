@@ -1,13 +1,14 @@
 //! Sets up triangles of a piece, one vector at a time: the pixels of the tile that they may cover, their edges, and the
 //! slopes of interpolated numbers.
 
+use crate::input::attributes::SLOTS;
 use crate::input::pieces::PIECE_TRIANGLES;
 use crate::simd::lanes::{
     F, I, M, MOST_LANES, Simd, each, f32x4, lanes, load_i, splat, splat_i, store, store_fours_i, store_i,
 };
 use crate::triangles::planes::{DepthPlane, FLATTEST, LaneSlopes, Slopes};
 use crate::triangles::samples::GRID_PLACES;
-use crate::vertices::transform::{CLIPPED, FAR_AWAY, GRID, SMALL, Vertices};
+use crate::vertices::transform::{CLIPPED, FAR_AWAY, GRID, SMALL, Vertices, places_by_axis};
 use fearless_simd::prelude::*;
 use halfway_lighting::Samples;
 use halfway_lighting::record::Cull;
@@ -19,7 +20,7 @@ type Lanes = [i32; MOST_LANES];
 
 /// The corners of a piece's triangles, gathered from the vertices.
 pub(crate) struct Corners {
-    /// By corner and triangle, as in [`Vertices::places`].
+    /// By corner: a number of each axis a triangle, in the order of [`Vertices::places`].
     places: [[[i32; 2]; PIECE_TRIANGLES]; 3],
     /// Whether some triangle has to be clipped; then all its corners' codes, and what they have in common.
     any_code: bool,
@@ -37,14 +38,24 @@ impl Corners {
         }
     }
 
-    /// Gathers them.
+    /// Gathers them. `rest` is the mesh's list of triangles from the piece's `count` ones on.
     #[inline(always)]
-    pub(crate) fn fill(&mut self, triangles: &[[u8; 3]], vertices: &Vertices) {
-        let [first, second, third] = &mut self.places;
-        for (((triangle, a), b), c) in triangles.iter().zip(first).zip(second).zip(third) {
-            *a = vertices.places[usize::from(triangle[0])];
-            *b = vertices.places[usize::from(triangle[1])];
-            *c = vertices.places[usize::from(triangle[2])];
+    pub(crate) fn fill<S: Simd>(
+        &mut self,
+        simd: S,
+        (rest, count): (&[[u8; 3]], usize),
+        vertices: &Vertices,
+        vertex_count: usize,
+    ) {
+        let triangles = &rest[..count.min(PIECE_TRIANGLES)];
+        if places_by_axis::<S>() {
+            self.shuffle(simd, (rest.as_flattened(), triangles.len()), vertices, vertex_count);
+        } else {
+            for (k, &[a, b, c]) in triangles.iter().enumerate() {
+                self.places[0][k] = vertices.places[usize::from(a)];
+                self.places[1][k] = vertices.places[usize::from(b)];
+                self.places[2][k] = vertices.places[usize::from(c)];
+            }
         }
         self.any_code = vertices.any_code != 0;
         if self.any_code {
@@ -54,7 +65,65 @@ impl Corners {
             }
         }
     }
+
+    /// Gathers places by axis: each shuffle takes the numbers of a vector of triangles out of those of 32 vertices.
+    #[inline(always)]
+    fn shuffle<S: Simd>(&mut self, simd: S, (rest, count): (&[u8], usize), vertices: &Vertices, vertex_count: usize) {
+        let from = vertices.places.as_flattened();
+        for at in (0..count).step_by(lanes::<S>()) {
+            let mut last = [0; 4 * MOST_LANES];
+            let of_these = rest[3 * at..].first_chunk().unwrap_or_else(|| {
+                last[..rest.len() - 3 * at].copy_from_slice(&rest[3 * at..]);
+                &last
+            });
+            let of_these = S::u8s::from_slice(simd, of_these);
+            for k in 0..3 {
+                // The number of the corner's vertex, four times.
+                let number: I<S> = of_these.swizzle_dyn(S::u8s::from_slice(simd, &CORNER_BYTES[k])).bitcast();
+                let bytes = ((number & splat_i(simd, 0x1f1f_1f1f)) << 2) | splat_i(simd, 0x0302_0100);
+                let bytes: S::u8s = bytes.bitcast();
+                let to = self.places[k].as_flattened_mut();
+                for axis in 0..2 {
+                    let list = &from[axis * SLOTS..];
+                    let mut place = of_32::<S>(simd, list, 0, bytes);
+                    for first in (32..vertex_count).step_by(32) {
+                        let these = (number >> 5 & splat_i(simd, 7)).simd_eq(splat_i(simd, first as i32 / 32));
+                        place = these.select(of_32::<S>(simd, list, first, bytes), place);
+                    }
+                    store_i::<S>(place, to, axis * PIECE_TRIANGLES + at);
+                }
+            }
+        }
+    }
+
+    /// x and y of one corner of the triangles from `at` on.
+    #[inline(always)]
+    fn places<S: Simd>(&self, simd: S, corner: usize, at: usize) -> (I<S>, I<S>) {
+        let list = self.places[corner].as_flattened();
+        if places_by_axis::<S>() {
+            (load_i(simd, list, at), load_i(simd, list, PIECE_TRIANGLES + at))
+        } else {
+            load_i(simd, list, 2 * at).deinterleave(load_i(simd, list, 2 * at + lanes::<S>()))
+        }
+    }
 }
+
+/// Takes numbers out of 32 from `first` on: each byte of a lane from the place that `bytes` says.
+#[inline(always)]
+fn of_32<S: Simd>(simd: S, list: &[i32], first: usize, bytes: S::u8s) -> I<S> {
+    load_i(simd, list, first).concat_swizzle_dyn(load_i(simd, list, first + lanes::<S>()), bytes)
+}
+
+/// For each corner the place of its number among the bytes of a vector of triangles, four times a lane.
+const CORNER_BYTES: [[u8; 4 * MOST_LANES]; 3] = {
+    let (mut bytes, mut k) = ([[0; 4 * MOST_LANES]; 3], 0);
+    while k < 3 * 4 * MOST_LANES {
+        let (corner, byte) = (k / (4 * MOST_LANES), k % (4 * MOST_LANES));
+        bytes[corner][byte] = (byte / 4 * 3 + corner) as u8;
+        k += 1;
+    }
+    bytes
+};
 
 /// A vector of triangles, relative to a tile.
 #[derive(Default)]
@@ -140,10 +209,7 @@ impl Batch {
             usable &= !clipped;
             far_away = (code & splat_i(simd, FAR_AWAY)).simd_gt(zero);
         }
-        let places = each!(k in 3 => {
-            let list = corners.places[k].as_flattened();
-            load_i(simd, list, 2 * at).deinterleave(load_i(simd, list, 2 * at + lanes::<S>()))
-        });
+        let places = each!(k in 3 => corners.places(simd, k, at));
         let outlines = self.find(simd, &places, (usable, far_away), covering);
         let meet = outlines.meet.to_bitmask();
         (self.tiny, self.small, self.few) = (0, 0, 0);

@@ -6,7 +6,7 @@ use crate::input::pieces::{Piece, Pieces};
 use crate::lighting::state::{Stage, State};
 use crate::lighting::{Points, reflected, tinted, tinted_terms, to_viewer};
 use crate::simd::lanes::{
-    F, I, Simd, V3, each, fma, lanes, load, load3, max, max_one, min, safe_normalize, splat, splat_i, store,
+    F, I, MOST_LANES, Simd, V3, each, fma, lanes, load, load3, max, min, safe_normalize, splat, splat_i, store,
     store_fours, store_i,
 };
 use crate::vertices::placed::TILE;
@@ -41,6 +41,13 @@ pub(crate) enum PlacedPiece {
     Box { first: [usize; 2], last: [usize; 2], nearest: f32 },
 }
 
+/// Whether the places of vertices are in a list for each axis: the widest vectors gather them by shuffles, and others
+/// copy pairs.
+#[inline(always)]
+pub(crate) const fn places_by_axis<S: Simd>() -> bool {
+    lanes::<S>() == MOST_LANES
+}
+
 /// A number a vertex.
 type List = [f32; SLOTS];
 
@@ -53,7 +60,8 @@ pub(crate) struct Vertices {
     pub(crate) nearness: List,
     /// In steps of the grid.
     pub(crate) grid: [[i32; SLOTS]; 2],
-    /// x and y from the tile's center, in 65,536ths of a step of the grid: rounded to whole steps they are `grid`.
+    /// x and y from the tile's center, in 65,536ths of a step of the grid: rounded to whole steps they are `grid`. They
+    /// are pairs, or all x and then all y: see [`places_by_axis`].
     pub(crate) places: [[i32; 2]; SLOTS],
     pub(crate) codes: [i32; SLOTS],
     /// All codes together.
@@ -175,21 +183,16 @@ impl Vertices {
         if self.any_code & CLIPPED != 0 {
             return PlacedPiece::Anywhere;
         }
+        let (low, high) = (each!(axis in 2 => low[axis].reduce_min()), each!(axis in 2 => high[axis].reduce_max()));
         for axis in 0..2 {
             let [first, last] = each!(end in 2 => center[axis] + (end as i32 * TILE as i32 - TILE as i32 / 2) * GRID);
-            let reaches = high[axis].simd_ge(splat_i(simd, first)).any_true()
-                && low[axis].simd_le(splat_i(simd, last)).any_true();
-            if !reaches {
+            if high[axis] < first || low[axis] > last {
                 return PlacedPiece::Beside;
             }
         }
         if !boxed || self.any_code != 0 {
             return PlacedPiece::Anywhere;
         }
-        let [low, high] = [
-            low.map(|low| low.as_slice().iter().copied().fold(i32::MAX, i32::min)),
-            high.map(|high| high.as_slice().iter().copied().fold(i32::MIN, i32::max)),
-        ];
         // The depths of larger triangles may exceed those of their corners by rounding.
         if (high[0] - low[0]).max(high[1] - low[1]) > SMALL {
             return PlacedPiece::Anywhere;
@@ -198,7 +201,7 @@ impl Vertices {
         PlacedPiece::Box {
             first: each!(axis in 2 => place(low[axis], axis).max(0) as usize),
             last: each!(axis in 2 => place(high[axis], axis).min(TILE as i32 - 1) as usize),
-            nearest: nearest.as_slice().iter().copied().fold(0.0, max_one),
+            nearest: nearest.reduce_max(),
         }
     }
 
@@ -251,9 +254,15 @@ impl Vertices {
         }
         store::<S>(inverse_w, &mut self.inverse_w, at);
         store::<S>(nearness, &mut self.nearness, at);
-        let (low, high) = relative[0].interleave(relative[1]);
-        store_i::<S>(low, self.places.as_flattened_mut(), 2 * at);
-        store_i::<S>(high, self.places.as_flattened_mut(), 2 * at + lanes::<S>());
+        let places = self.places.as_flattened_mut();
+        if places_by_axis::<S>() {
+            store_i::<S>(relative[0], places, at);
+            store_i::<S>(relative[1], places, SLOTS + at);
+        } else {
+            let (low, high) = relative[0].interleave(relative[1]);
+            store_i::<S>(low, places, 2 * at);
+            store_i::<S>(high, places, 2 * at + lanes::<S>());
+        }
         if !AT_HAND {
             store_i::<S>(code, &mut self.codes, at);
         }
