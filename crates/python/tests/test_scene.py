@@ -93,6 +93,49 @@ def test_an_animation_is_played():
         halfway.Scene({"objects": [{"mesh": {"box": {}}}]}).render(size=SIZE, time=0.5)
 
 
+def test_the_animation_of_a_model_is_chosen(tmp_path):
+    # A triangle that goes aside in one animation and stays in the other.
+    lists = [[0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1], [0, 0, 0, 5, 0, 0], [0] * 6]
+    data = [np.asarray(numbers, "<f4").tobytes() for numbers in lists]
+    starts = np.cumsum([0, *map(len, data)]).tolist()
+    accessors = [
+        {"bufferView": 0, "byteOffset": start, "componentType": 5126, "type": kind, "count": count}
+        for start, kind, count in zip(starts, ["VEC3", "SCALAR", "VEC3", "VEC3"], [3, 2, 2, 2])
+    ]
+    accessors[0] |= {"min": [0, 0, 0], "max": [1, 1, 0]}
+    animations = [
+        {
+            "name": name,
+            "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+            "samplers": [{"input": 1, "output": places}],
+        }
+        for name, places in [("go", 2), ("stay", 3)]
+    ]
+    file = tmp_path / "model.gltf"
+    (tmp_path / "model.bin").write_bytes(b"".join(data))
+    model = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": accessors,
+        "bufferViews": [{"buffer": 0, "byteLength": starts[-1]}],
+        "buffers": [{"byteLength": starts[-1], "uri": "model.bin"}],
+        "animations": animations,
+    }
+    file.write_text(json.dumps(model))
+
+    def moves(**options):
+        with pytest.warns(halfway.SceneWarning):
+            first, later = [halfway.render(file, size=SIZE, time=time, **options) for time in (0.0, 0.9)]
+        return not (first == later).all()
+
+    assert moves() and moves(animation="go") and moves(animation=0)
+    assert not moves(animation="stay") and not moves(animation=1)
+    with pytest.raises(ValueError, match='animation.*is "run".*0 "go", 1 "stay"'):
+        halfway.render(file, size=SIZE, animation="run")
+
+
 @pytest.mark.parametrize("break_it, message", [
     (lambda s: s["pot"].set(shading="round"), "shading.*round"),
     (lambda s: s["pot"].set(metal=1), "unknown key `metal`"),
