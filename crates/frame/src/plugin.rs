@@ -3,6 +3,7 @@
 use crate::batch::backend::Backend;
 use crate::batch::batches::{self, Batches};
 use crate::batch::lit_patches::{self, LitPatches};
+use crate::batch::looks::{self, Look, Looks};
 use crate::geometry::meshes::{self, Geometries};
 use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
@@ -54,6 +55,7 @@ impl Plugin for FramePlugin {
             .init_resource::<Visible>()
             .init_resource::<Lights>()
             .init_resource::<Surroundings>()
+            .init_resource::<Looks>()
             .init_resource::<LitPatches>()
             .init_resource::<Batches>()
             .init_resource::<Passes>()
@@ -65,6 +67,7 @@ impl Plugin for FramePlugin {
             (
                 place_by_origins.in_set(ReadCamera).before(camera::update),
                 camera::require_propagation.in_set(ReadCamera).after(camera::update),
+                looks::forget_changed.in_set(RenderSet::Select),
                 meshes::forget_removed.in_set(RenderSet::Choose).after(terms::check).before(meshes::lay_out),
             ),
         );
@@ -111,6 +114,7 @@ impl FramePlugin {
             world.try_register_required_components::<Mesh3d, Material>(),
             world.try_register_required_components::<Mesh3d, ModelView>(),
             world.try_register_required_components::<Mesh3d, NormalMatrix>(),
+            world.try_register_required_components::<Mesh3d, Look>(),
         ];
         if required.iter().any(Result::is_err) {
             app.add_systems(self.schedule, complete.in_set(RenderSet::View).before(ReadCamera));
@@ -129,12 +133,12 @@ pub fn add_backend<B: Backend + Resource<Mutability = Mutable>, M>(
     app.add_systems(schedule, systems.run_if(condition));
 }
 
-type Incomplete = (With<Mesh3d>, Or<(Without<Material>, Without<ModelView>, Without<NormalMatrix>)>);
+type Incomplete = (With<Mesh3d>, Or<(Without<Material>, Without<ModelView>, Without<NormalMatrix>, Without<Look>)>);
 
 /// Gives objects the components that they lack.
 fn complete(objects: Query<Entity, Incomplete>, mut commands: Commands) {
     for object in &objects {
-        let all = (Material::default(), ModelView::default(), NormalMatrix::default());
+        let all = (Material::default(), ModelView::default(), NormalMatrix::default(), Look::default());
         commands.entity(object).insert_if_new(all);
     }
 }

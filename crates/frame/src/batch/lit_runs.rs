@@ -1,21 +1,14 @@
 //! Runs: neighbouring patches of an object that are drawn alike, and the order in which they are drawn.
 
-use std::cmp::Ordering;
 use std::ops::Range;
 
 /// Neighbouring patches of an object that are drawn alike.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LitRun {
-    pub blend: bool,
-    /// The number of its key, mesh and form.
-    pub(crate) call: u32,
+    /// The number of its state.
+    pub(crate) state: u32,
     /// 0, and 1 for the second pass of an object that is drawn in two: its near side.
     pub(crate) pass: u32,
-    /// How many opaque objects that were spawned before have its bounding sphere; such may coincide, and the first is
-    /// to win. 0 for blended ones.
-    pub(crate) twins_before: u32,
-    /// The first of its indices, and the first behind them.
-    pub indices: (u32, u32),
     pub record: u32,
     /// Distance of the object's centre along the view; nearer opaque objects first, farther blended ones first.
     pub(crate) depth: f32,
@@ -41,25 +34,10 @@ impl OpenRun {
 }
 
 impl LitRun {
-    /// Whether both are drawn alike but for their records, which may be looked up.
-    pub(crate) fn differs_in_record_alone(&self, other: &Self) -> bool {
-        let state = |item: &Self| (item.blend, item.call, item.indices);
-        state(self) == state(other)
-    }
-
-    pub(crate) fn by_state(&self, other: &Self) -> Ordering {
-        let state = |item: &Self| (item.twins_before, item.call, item.indices, item.record);
-        state(self).cmp(&state(other)).then_with(|| self.by_nearness(other))
-    }
-
-    pub(crate) fn by_nearness(&self, other: &Self) -> Ordering {
-        self.depth.total_cmp(&other.depth).then_with(|| self.instance.cmp(&other.instance))
-    }
-
-    /// Far ones first; of one instance the far side first, and then by triangle.
-    pub(crate) fn by_depth(&self, other: &Self) -> Ordering {
-        let order = |item: &Self| (item.instance, item.pass, item.indices);
-        other.depth.total_cmp(&self.depth).then_with(|| order(self).cmp(&order(other)))
+    /// A number that is the larger the farther away it is, as `f32::total_cmp` orders.
+    pub(crate) fn nearness(&self) -> u32 {
+        let bits = self.depth.to_bits();
+        bits ^ if bits >> 31 == 0 { 1 << 31 } else { u32::MAX }
     }
 }
 

@@ -59,6 +59,10 @@ pub(crate) struct Shared<'a> {
     /// The encoding of the picture's bytes; `None` for floating point.
     pub(crate) encoding: Option<Encoding>,
     pub(crate) eye: Eye<f32>,
+    /// The length of a world unit in the eye space of the shaders.
+    pub(crate) unit: f32,
+    /// The share of a tolerance that is left for the values.
+    pub(crate) share: f64,
 }
 
 /// Inputs for an object's key from its place, its mesh and its shading.

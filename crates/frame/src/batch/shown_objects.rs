@@ -1,13 +1,14 @@
 //! The visible objects, as their components and the view say.
 
 use crate::batch::key::MapLooks;
+use crate::batch::looks::{LookBits, Surface};
 use crate::batch::object::{Reflecting, wrong_paint};
 use crate::batch::table::MapsUse;
 use crate::geometry::meshes::{Form, Geometries, Geometry, Paint, PaintComponents};
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::shown_shading;
 use crate::view::camera::View;
-use crate::view::matrices::{ModelView, NormalMatrix, Visible};
+use crate::view::matrices::Visible;
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
 use halfway_asset::{AssetId, Assets};
@@ -22,7 +23,6 @@ type ObjectComponents = (
     Option<&'static Faces>,
     PaintComponents,
     Option<&'static Tolerance>,
-    (&'static ModelView, &'static NormalMatrix),
     Option<&'static Shading>,
     Option<&'static Name>,
 );
@@ -51,19 +51,21 @@ pub(super) struct ShownObject<'a> {
     pub(super) lacks_environment: bool,
     pub(super) terms: Terms,
     pub(super) tolerance: Tolerance,
-    pub(super) model_view: &'a ModelView,
-    pub(super) normal_matrix: &'a NormalMatrix,
+    /// Its components, unless it has images or a solid.
+    pub(super) bits: Option<LookBits>,
 }
 
 impl ShownObjects<'_, '_> {
-    /// The visible ones in spawn order; those with images or a solid are lit by an environment where that can be.
-    pub(super) fn iter(&self, lights_images: bool) -> impl Iterator<Item = ShownObject<'_>> {
-        self.visible.0.iter().filter_map(move |&entity| self.get(entity, lights_images))
+    /// The visible ones in spawn order.
+    pub(super) fn visible(&self) -> &[Entity] {
+        &self.visible.0
     }
 
-    fn get(&self, entity: Entity, lights_images: bool) -> Option<ShownObject<'_>> {
-        let (mesh, material, back, reflectance, faces, components, tolerance, placed, shading, name) =
+    /// One of them; one with images or a solid is lit by an environment only if `lights_images`.
+    pub(super) fn get(&self, entity: Entity, lights_images: bool) -> Option<ShownObject<'_>> {
+        let (mesh, material, back, reflectance, faces, components, tolerance, shading, name) =
             self.objects.get(entity).ok()?;
+        let bits = LookBits::new(Surface { mesh, material, back, shading, reflectance, faces, tolerance }, components);
         let shading = shown_shading(shading, &self.view);
         let of_mesh = |mesh| Paint::new(mesh, components, shading, self.surroundings.are_there());
         let mut paint = self.meshes.get(&mesh.0).map_or(Paint::default(), of_mesh);
@@ -93,8 +95,7 @@ impl ShownObjects<'_, '_> {
             lacks_environment,
             terms: shading.into(),
             tolerance: tolerance.copied().unwrap_or(self.view.tolerance),
-            model_view: placed.0,
-            normal_matrix: placed.1,
+            bits,
         })
     }
 }

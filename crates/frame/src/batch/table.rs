@@ -28,9 +28,10 @@ pub struct ObjectTable {
     last_lights: Vec<Option<(SurfaceLights, u32)>>,
     numbers: HashMap<(u32, [u32; size_of::<SurfaceLights>() / 4]), u32>,
     calls: HashMap<Call, u32>,
-    /// How many opaque objects there are with a bounding sphere, by its bits.
-    twins: HashMap<[u32; 4], u32>,
     pub(crate) called: Vec<Call>,
+    state_numbers: HashMap<RunState, u32>,
+    /// The states of runs, each once.
+    pub(crate) states: Vec<RunState>,
     map_numbers: HashMap<MapsBits, u32>,
     /// The sets of images on objects of the frame, each once.
     pub maps: Vec<MapsUse>,
@@ -107,6 +108,18 @@ fn missing() -> Pyramid {
     MISSING.get_or_init(Pyramid::missing).clone()
 }
 
+/// Everything but its record that a run may share with others, by which runs are sorted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct RunState {
+    /// How many opaque objects that were spawned before have its bounding sphere; such may coincide, and the first is
+    /// to win. 0 for blended ones.
+    pub(crate) twins_before: u32,
+    /// The number of its key, mesh and form.
+    pub(crate) call: u32,
+    /// The first of its indices, and the first behind them.
+    pub(crate) indices: (u32, u32),
+}
+
 /// A pipeline key, a mesh with its form, and the number of the set of images, from 1 on; 0 for none.
 pub(crate) type Call = (DrawKey, AssetId<Mesh>, Form, u32);
 
@@ -127,8 +140,9 @@ impl ObjectTable {
         self.last_lights.resize(self.materials.len(), None);
         self.numbers.clear();
         self.calls.clear();
-        self.twins.clear();
         self.called.clear();
+        self.state_numbers.clear();
+        self.states.clear();
         self.map_numbers.clear();
         self.maps.clear();
     }
@@ -167,14 +181,6 @@ impl ObjectTable {
         self.last_lights.iter().flatten().count() as u32
     }
 
-    /// How many opaque objects before this one have the same bounding sphere, as have those whose triangles all
-    /// coincide.
-    pub(crate) fn twins_before(&mut self, (center, radius): (Vec3, f32)) -> u32 {
-        let number = self.twins.entry([center.x, center.y, center.z, radius].map(f32::to_bits)).or_default();
-        *number += 1;
-        *number - 1
-    }
-
     /// The number of a set of images, from 1 on.
     pub fn maps(&mut self, of: &MapsUse) -> u32 {
         *self.map_numbers.entry(of.bits()).or_insert_with(|| {
@@ -191,6 +197,17 @@ impl ObjectTable {
         *self.calls.entry(call).or_insert_with(|| {
             self.called.push(call);
             self.called.len() as u32 - 1
+        })
+    }
+
+    /// The number of a state. Neighbours often have the same, and to compare is cheaper than to look up.
+    pub(crate) fn state(&mut self, state: RunState) -> u32 {
+        if self.states.last() == Some(&state) {
+            return self.states.len() as u32 - 1;
+        }
+        *self.state_numbers.entry(state).or_insert_with(|| {
+            self.states.push(state);
+            self.states.len() as u32 - 1
         })
     }
 }

@@ -206,12 +206,18 @@ impl Patches {
     /// Fills `seen` with the numbers of the patches that may show, in ascending order, as detailed as is demanded. A mesh
     /// that is a single patch is taken to be seen: it has been culled as an object. Returns how many patches there were
     /// to cull.
-    pub(crate) fn see(&self, sight: &Sight, demand: DetailDemand, seen: &mut Vec<u32>) -> usize {
+    pub(crate) fn see<'a>(
+        &self,
+        sight: impl FnOnce() -> Sight<'a>,
+        demand: DetailDemand,
+        seen: &mut Vec<u32>,
+    ) -> usize {
         seen.clear();
         if self.len() == 1 {
             seen.push(0);
             return 0;
         }
+        let sight = &sight();
         let shows = |patch: &u32| self.outlines[*patch as usize].is_seen(sight);
         let Some(levels) = &self.levels else {
             for group in self.groups.iter().filter(|group| group.outline.is_seen(sight)) {

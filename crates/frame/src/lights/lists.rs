@@ -40,6 +40,7 @@ pub(crate) struct Reflector {
 }
 
 /// Inputs for building the light lists of an object's patches.
+#[derive(Debug)]
 pub(crate) struct Listing {
     /// No smaller than either side's.
     material: Coefficients<f32>,
