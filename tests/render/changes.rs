@@ -6,7 +6,7 @@ use crate::render::scene::{Around, Lamp, Map, Scene, Thing, material, other_mate
 use crate::render::sides::hemisphere;
 use crate::render::stage::Stage;
 use bevy_ecs::entity_disabling::Disabled;
-use halfway::lighting::Frequency;
+use halfway::lighting::{Edges, Frequency};
 use halfway::prelude::*;
 use halfway::texture::environment::{EnvironmentLight, EnvironmentMap};
 use halfway::texture::{TexelFilter, TexelImage};
@@ -438,5 +438,114 @@ fn an_invalid_entity_is_an_error_in_each_still_frame() {
     for _ in 0..4 {
         let report = stage.frame();
         assert_eq!(report.errors.len(), 1);
+    }
+}
+
+/// A change of the world, given its objects and the camera.
+type Step = fn(&mut World, &[Entity], Entity);
+
+fn edit<C: Component<Mutability = bevy_ecs::component::Mutable>>(
+    world: &mut World,
+    of: Entity,
+    to: impl FnOnce(&mut C),
+) {
+    to(&mut world.get_mut::<C>(of).expect("it has one"));
+}
+
+fn remove<C: Component>(world: &mut World, from: Entity) {
+    world.entity_mut(from).remove::<C>();
+}
+
+/// Changes that follow one another. Much of a frame is kept for the next one, and each of these makes something of it
+/// stale.
+const STEPS: [(&str, Step); 33] = [
+    ("nothing", |_, _, _| ()),
+    ("a material", |world, of, _| edit::<Material>(world, of[0], |m| m.diffuse.red = 0.9)),
+    ("nothing again", |_, _, _| ()),
+    ("an object moves", |world, of, _| edit::<Transform>(world, of[1], |t| t.translation.y += 0.3)),
+    ("a back of its own", |world, of, _| insert(&mut world.entity_mut(of[2]), BackMaterial(other_material()))),
+    ("both sides", |world, of, _| insert(&mut world.entity_mut(of[2]), Faces::Both)),
+    ("the back goes", |world, of, _| remove::<BackMaterial>(world, of[2])),
+    ("flat", |world, of, _| insert(&mut world.entity_mut(of[3]), Shading::Flat)),
+    ("no longer flat", |world, of, _| remove::<Shading>(world, of[3])),
+    ("mirrored", |world, of, _| edit::<Transform>(world, of[4], |t| t.scale.x = -1.0)),
+    ("the camera shades", |world, _, camera| insert(&mut world.entity_mut(camera), Shading::Gouraud)),
+    ("the camera reflects", |world, _, camera| insert(&mut world.entity_mut(camera), Reflectance::Phong)),
+    ("the camera moves", |world, _, camera| edit::<Transform>(world, camera, |t| t.translation.x += 0.2)),
+    ("the camera zooms", |world, _, camera| {
+        edit::<Camera>(world, camera, |c| c.projection = Camera::perspective(0.5).projection);
+    }),
+    ("hidden", |world, of, _| insert(&mut world.entity_mut(of[5]), Visibility::Hidden)),
+    ("another moves meanwhile", |world, of, _| edit::<Transform>(world, of[6], |t| t.translation.z += 0.5)),
+    ("shown", |world, of, _| remove::<Visibility>(world, of[5])),
+    ("disabled", |world, of, _| insert(&mut world.entity_mut(of[7]), Disabled)),
+    ("it changes meanwhile", |world, of, _| edit::<Material>(world, of[7], |m| m.diffuse = LinearRgba::GREEN)),
+    ("enabled", |world, of, _| remove::<Disabled>(world, of[7])),
+    ("despawned", |world, of, _| world.entity_mut(of[8]).despawn()),
+    ("one more", |world, _, _| {
+        let mesh = world.resource_mut::<Assets<Mesh>>().add(Cuboid::new(0.5, 0.7, 0.9));
+        world.spawn((Mesh3d(mesh), other_material(), Transform::from_xyz(0.2, -0.8, 0.4)));
+    }),
+    ("ambient light", |world, _, _| world.resource_mut::<GlobalAmbient>().0 = LinearRgba::rgb(0.3, 0.2, 0.1)),
+    ("a light", |world, _, _| {
+        world.spawn((point_light(), Transform::from_xyz(-2.0, 1.0, 2.0)));
+    }),
+    ("an environment", |world, _, _| {
+        let map = world.resource_mut::<Assets<EnvironmentMap>>().add(around(0.5).map);
+        world.spawn(EnvironmentLight { map, strength: 0.5, rotation: 0.0, sky: false });
+    }),
+    ("colors that do not count", |world, of, _| insert(&mut world.entity_mut(of[9]), VertexColors::Ignore)),
+    ("another mesh", |world, of, _| {
+        let mesh = world.resource_mut::<Assets<Mesh>>().add(UvSphere::new(0.3, 7, 5));
+        insert(&mut world.entity_mut(of[10]), Mesh3d(mesh));
+    }),
+    ("blended", |world, of, _| {
+        edit::<Material>(world, of[11], |m| m.opacity = 0.5);
+        insert(&mut world.entity_mut(of[11]), AlphaMode::Blend);
+    }),
+    ("blended no more", |world, of, _| remove::<AlphaMode>(world, of[11])),
+    ("where another is", |world, of, _| {
+        let at = *world.get::<Transform>(of[0]).expect("it has one");
+        insert(&mut world.entity_mut(of[1]), at);
+    }),
+    ("edges alone", |world, of, _| {
+        insert(&mut world.entity_mut(of[2]), Edges { surface: false, ..Edges::default() });
+    }),
+    ("with its surface", |world, of, _| edit::<Edges>(world, of[2], |edges| edges.surface = true)),
+    ("a mesh changes", |world, of, _| {
+        let handle = world.get::<Mesh3d>(of[0]).expect("it has one").0.clone();
+        *world.resource_mut::<Assets<Mesh>>().get_mut(&handle).expect("it is there") = Cuboid::default().into();
+    }),
+];
+
+#[test]
+fn a_frame_after_any_change_is_as_if_it_were_the_first() {
+    let mut scene = Scene::seen_from(Vec3::new(0.0, 1.5, 5.0), Vec3::ZERO)
+        .ambient(0.1)
+        .lit(Lamp::point(point_light(), Vec3::new(1.0, 2.0, 3.0)));
+    for i in 0..12_u8 {
+        let at = Vec3::new(f32::from(i % 4) - 1.5, 0.0, f32::from(i / 4) - 1.0);
+        let mesh = if i % 2 == 0 { Mesh::from(UvSphere::new(0.4, 9, 6)) } else { Cuboid::new(0.6, 0.5, 0.4).into() };
+        let look = [material(), other_material()][usize::from(i % 3 == 0)];
+        scene = scene.with(Thing::new(mesh).with_material(look).at(Transform::from_translation(at)));
+    }
+    let camera = |world: &mut World| world.query_filtered::<Entity, With<Camera>>().single(world).expect("one camera");
+    let counts = |report: &FrameReport| {
+        let FrameReport { objects, visible, lights, triangles_in, draws, triangles, materials, .. } = *report;
+        (objects, visible, lights, triangles_in, draws, triangles, materials, report.passes.clone())
+    };
+    let mut stage = Stage::new(40, 30);
+    let things = stage.set(&scene);
+    for (last, (row, step)) in STEPS.iter().enumerate() {
+        let of = camera(stage.world());
+        step(stage.world(), &things, of);
+        let picture = stage.float();
+        let report = counts(stage.report());
+        let mut fresh = Stage::new(40, 30);
+        let things = fresh.set(&scene);
+        let of = camera(fresh.world());
+        STEPS[..=last].iter().for_each(|(_, step)| step(fresh.world(), &things, of));
+        assert_identical(row, &fresh.float(), &picture);
+        assert_eq!(counts(fresh.report()), report, "{row}");
     }
 }

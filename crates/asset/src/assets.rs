@@ -3,7 +3,7 @@
 use std::fmt;
 
 use bevy_app::{App, PreUpdate};
-use bevy_ecs::prelude::{ResMut, Resource};
+use bevy_ecs::prelude::{DetectChangesMut, ResMut, Resource};
 
 use crate::handle::{AssetId, Dropped, Handle};
 
@@ -113,7 +113,8 @@ impl<T: Send + Sync + 'static> Assets<T> {
 
     /// Removes assets without a handle. [`add_assets`] runs it before each update.
     fn remove_unused(mut assets: ResMut<Self>) {
-        let dropped = assets.dropped.take();
+        // Assets have changed only if some go.
+        let dropped = assets.bypass_change_detection().dropped.take();
         if dropped.is_empty() {
             return;
         }

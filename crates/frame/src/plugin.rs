@@ -3,7 +3,6 @@
 use crate::batch::backend::Backend;
 use crate::batch::batches::{self, Batches};
 use crate::batch::lit_patches::{self, LitPatches};
-use crate::batch::looks::{self, Look, Looks};
 use crate::geometry::meshes::{self, Geometries};
 use crate::geometry::workshop::Workshop;
 use crate::lights::gather::{self, Lights};
@@ -15,7 +14,9 @@ use crate::sets::RenderSet;
 use crate::times;
 use crate::values::{DrawsOnce, FrameValues, WaitsForLevels};
 use crate::view::camera::{self, Epoch, PictureSize, View};
-use crate::view::matrices::{self, ModelView, NormalMatrix, Visible};
+use crate::view::looks::{self, Look, Looks};
+use crate::view::matrices::{ModelView, NormalMatrix};
+use crate::view::select::{self, Representatives, Selected, Visible};
 use bevy_app::{App, Plugin};
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
@@ -53,6 +54,8 @@ impl Plugin for FramePlugin {
             .init_resource::<Epoch>()
             .init_resource::<View>()
             .init_resource::<Visible>()
+            .init_resource::<Representatives>()
+            .init_resource::<Selected>()
             .init_resource::<Lights>()
             .init_resource::<Surroundings>()
             .init_resource::<Looks>()
@@ -67,7 +70,7 @@ impl Plugin for FramePlugin {
             (
                 place_by_origins.in_set(ReadCamera).before(camera::update),
                 camera::require_propagation.in_set(ReadCamera).after(camera::update),
-                looks::forget_changed.in_set(RenderSet::Select),
+                looks::forget_changed.in_set(RenderSet::Select).before(select::select),
                 meshes::forget_removed.in_set(RenderSet::Choose).after(terms::check).before(meshes::lay_out),
             ),
         );
@@ -83,18 +86,17 @@ pub struct FurtherCamera;
 
 /// Adds the systems that make a camera's frame.
 fn add_stages(app: &mut App, schedule: InternedScheduleLabel) -> ScheduleConfigs<InternedSystemSet> {
-    use RenderSet::{Batch, Choose, Deliver, Draw, Illuminate, Matrices, Select, Upload, View};
+    use RenderSet::{Batch, Choose, Deliver, Draw, Illuminate, Select, Upload, View};
     app.configure_sets(schedule, ReadCamera.in_set(View)).add_systems(
         schedule,
         (
             camera::update.in_set(ReadCamera),
-            (matrices::select, surroundings::gather).in_set(Select),
-            matrices::compute.in_set(Matrices),
+            (select::select, surroundings::gather).in_set(Select),
             (terms::check, meshes::lay_out).chain().in_set(Choose),
             gather::gather.in_set(Illuminate),
         ),
     );
-    (View, Select, Matrices, Choose, Illuminate, Batch, Upload, Draw, Deliver).chain()
+    (View, Select, Choose, Illuminate, Batch, Upload, Draw, Deliver).chain()
 }
 
 /// Adds the stages of a frame up to its draws to [`FurtherCamera`].

@@ -8,10 +8,10 @@ pub enum RenderSet {
     /// The adapter is open, the camera is validated, [`View`](crate::view::camera::View) holds its matrices and projection, and there
     /// is something to draw into.
     View,
-    /// [`Visible`](crate::view::matrices::Visible) holds the objects that the frustum sees.
+    /// [`Visible`](crate::view::select::Visible) holds the objects that the frustum sees; their
+    /// [`ModelView`](crate::view::matrices::ModelView) and [`NormalMatrix`](crate::view::matrices::NormalMatrix) are
+    /// current.
     Select,
-    /// [`ModelView`](crate::view::matrices::ModelView) and [`NormalMatrix`](crate::view::matrices::NormalMatrix) of every visible object are current.
-    Matrices,
     /// The [`Shading`](halfway_lighting::Shading) of every visible object can be drawn, and its mesh is in patches laid
     /// out for it.
     Choose,
@@ -30,10 +30,9 @@ pub enum RenderSet {
 
 impl RenderSet {
     /// All of them, in the order of a frame.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 8] = [
         Self::View,
         Self::Select,
-        Self::Matrices,
         Self::Choose,
         Self::Illuminate,
         Self::Batch,
@@ -47,7 +46,6 @@ impl RenderSet {
         match self {
             Self::View => "View",
             Self::Select => "Select",
-            Self::Matrices => "Matrices",
             Self::Choose => "Choose",
             Self::Illuminate => "Illuminate",
             Self::Batch => "Batch",

@@ -9,7 +9,7 @@ use halfway_frame::FurtherCamera;
 use halfway_frame::passes::Passes;
 use halfway_frame::report::FrameReport;
 use halfway_frame::view::camera::{PictureSize, View};
-use halfway_frame::view::matrices::Visible;
+use halfway_frame::view::select::Visible;
 use halfway_lighting::{CameraTurn, Load, SharedPart, SharingCameras};
 
 /// The cameras that share the picture of the frame, in the order in which they are drawn. Empty where a camera has the

@@ -14,4 +14,7 @@ pub trait Backend {
 
     /// Whether the instances of such a draw can look up their records. If not, each record is a draw.
     fn looks_up(&mut self, key: DrawKey) -> bool;
+
+    /// Whether it answers as it did in the last frame. Then a frame that is equal in all else is not made anew.
+    fn is_settled(&self) -> bool;
 }

@@ -23,6 +23,8 @@ pub struct Batches {
     order: Vec<Place>,
     states: Vec<u32>,
     ranks: Vec<u32>,
+    /// The number of the frame that they are of.
+    made_of: u64,
 }
 
 /// The place of a run in the order of opaque ones: the rank of its state, its depth, and its own number, so that equally
@@ -36,10 +38,13 @@ pub fn batch<B: Backend + Resource<Mutability = Mutable>>(
     mut batches: ResMut<Batches>,
     mut report: ResMut<FrameReport>,
 ) {
-    batches.instances.clear();
-    batches.draws.clear();
-    batches.emit_opaque(&lit, &mut *backend);
-    batches.emit_blended(&lit, &mut *backend);
+    if !(lit.stands && batches.made_of == lit.frame.wrapping_sub(1)) {
+        batches.instances.clear();
+        batches.draws.clear();
+        batches.emit_opaque(&lit, &mut *backend);
+        batches.emit_blended(&lit, &mut *backend);
+    }
+    batches.made_of = lit.frame;
     report.draws = batches.draws.count() as u32;
     report.triangles = batches.draws.triangles();
 }

@@ -4,7 +4,6 @@ use crate::batch::backend::Backend;
 use crate::batch::key::DrawKey;
 use crate::batch::lit_looks::{LitLook, LitLooks};
 use crate::batch::lit_runs::{LitRun, OpenRun, most_between};
-use crate::batch::looks::{Look, Looks};
 use crate::batch::object::Shared;
 use crate::batch::shown_objects::ShownObjects;
 use crate::batch::table::{ObjectTable, RunState};
@@ -15,8 +14,11 @@ use crate::lights::gather::Lights;
 use crate::lights::lists::LightLists;
 use crate::lights::slots::Lists;
 use crate::report::FrameReport;
-use crate::values::FrameValues;
+use crate::values::{FrameValues, PixelValues};
+use crate::view::camera::View;
+use crate::view::looks::{Look, Looks};
 use crate::view::matrices::{ModelView, NormalMatrix};
+use crate::view::select::Selected;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use halfway_lighting::record::{InstanceRecord, SurfaceRecord};
@@ -42,6 +44,32 @@ pub struct LitPatches {
     looks: LitLooks,
     /// The numbers of the object's patches that may show. Its memory is kept.
     seen: Vec<u32>,
+    /// All that it is made of beside the objects; `None` where some were left out with an error, which is told anew in
+    /// each frame.
+    made_of: Option<MadeOf>,
+    /// The number of the frame that it is of.
+    pub(crate) frame: u64,
+    /// Whether it is that of the frame before.
+    pub(crate) stands: bool,
+    counts: Counts,
+}
+
+/// Inputs of a frame beside its objects and lights.
+#[derive(Debug, PartialEq)]
+struct MadeOf {
+    view: View,
+    values: PixelValues,
+    has_environment: bool,
+    /// The numbers of meshes laid out and forgotten.
+    meshes: [u64; 2],
+}
+
+/// The counts of a frame that tell of it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
+    triangles_in: u64,
+    patches: u32,
+    patches_culled: u32,
 }
 
 /// The place of an object, and how it is drawn there.
@@ -62,31 +90,59 @@ pub fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     objects: ShownObjects,
     mut places: Query<Places>,
     lights: Res<Lights>,
-    values: Res<FrameValues>,
+    (values, selected): (Res<FrameValues>, Res<Selected>),
     mut looks: ResMut<Looks>,
     mut backend: ResMut<B>,
     mut lit: ResMut<LitPatches>,
     mut report: ResMut<FrameReport>,
 ) {
-    lit.begin(&lights);
     let view = &objects.view;
-    let (Some(camera), Some(values)) = (&view.camera, values.0) else { return };
-    let shared = Shared {
-        lights: &lights,
-        view,
-        encoding: values.encoding(),
-        eye: camera.eye(),
-        unit: view.unit() as f32,
-        share: values.share(),
+    let (Some(camera), Some(values)) = (&view.camera, values.0) else {
+        lit.begin(&lights);
+        lit.made_of = None;
+        return;
     };
-    lit.add_all(&objects, (&mut places, &mut looks), shared, &mut *backend, &mut report);
-    report.materials = lit.table.materials_in_use();
-    report.lights_assigned = lit.lists.assigned;
-    report.light_pairs = lit.lists.pairs;
-    report.left_out = lit.lists.left_out;
+    let made_of = MadeOf {
+        view: (**view).clone(),
+        values,
+        has_environment: objects.surroundings.are_there(),
+        meshes: [objects.geometries.laid_out, objects.geometries.forgotten],
+    };
+    lit.stands = selected.stands
+        && lit.frame + 1 == selected.frame
+        && lit.made_of.as_ref() == Some(&made_of)
+        && !lights.is_changed()
+        && backend.is_settled();
+    lit.frame = selected.frame;
+    if !lit.stands {
+        lit.begin(&lights);
+        let shared = Shared {
+            lights: &lights,
+            view,
+            encoding: values.encoding(),
+            eye: camera.eye(),
+            unit: view.unit() as f32,
+            share: values.share(),
+        };
+        let errors = report.errors.len();
+        lit.add_all(&objects, (&mut places, &mut looks), shared, &mut *backend, &mut report.errors);
+        lit.made_of = (report.errors.len() == errors).then_some(made_of);
+    }
+    lit.report(&mut report);
 }
 
 impl LitPatches {
+    fn report(&self, report: &mut FrameReport) {
+        let Counts { triangles_in, patches, patches_culled } = self.counts;
+        report.triangles_in += triangles_in;
+        report.patches += patches;
+        report.patches_culled += patches_culled;
+        report.materials = self.table.materials_in_use();
+        report.lights_assigned = self.lists.assigned;
+        report.light_pairs = self.lists.pairs;
+        report.left_out = self.lists.left_out;
+    }
+
     fn begin(&mut self, lights: &Lights) {
         self.opaque.clear();
         self.blended.clear();
@@ -96,6 +152,8 @@ impl LitPatches {
         self.table.begin(lights.ambient);
         self.looks.clear();
         self.twins.clear();
+        self.counts = Counts::default();
+        self.stands = false;
     }
 
     /// Adds all objects.
@@ -105,28 +163,28 @@ impl LitPatches {
         (places, numbers): (&mut Query<Places>, &mut Looks),
         shared: Shared,
         backend: &mut impl Backend,
-        report: &mut FrameReport,
+        errors: &mut Vec<RenderError>,
     ) {
         let mut without_environment = 0;
         let mut looks = std::mem::take(&mut self.looks);
         for &entity in shown.visible() {
             let Ok((mut number, model_view, normal_matrix)) = places.get_mut(entity) else { continue };
             if let Some(look) = numbers.known(*number).and_then(|known| looks.of_number(known)) {
-                self.add(look, (model_view, normal_matrix), shared, backend, report);
+                self.add(look, (model_view, normal_matrix), shared, backend);
                 continue;
             }
             let Some(object) = shown.get(entity, backend.lights_images_by_environments()) else { continue };
             without_environment += usize::from(object.lacks_environment);
             match LitLook::new(&object, shown, shared, &mut self.table) {
                 Ok(Some(mut look)) => {
-                    self.add(&mut look, (model_view, normal_matrix), shared, backend, report);
+                    self.add(&mut look, (model_view, normal_matrix), shared, backend);
                     if let Some(bits) = object.bits {
                         looks.add(numbers.number(number.bypass_change_detection(), bits), look);
                     }
                 }
                 Ok(None) => {}
                 Err(source) => {
-                    report.errors.push(RenderError::Invalid { entity: label(object.entity, object.name), source });
+                    errors.push(RenderError::Invalid { entity: label(object.entity, object.name), source });
                 }
             }
         }
@@ -134,7 +192,7 @@ impl LitPatches {
         numbers.used = looks.len();
         self.looks = looks;
         if without_environment > 0 {
-            report.errors.push(RenderError::ImagesInEnvironment(without_environment));
+            errors.push(RenderError::ImagesInEnvironment(without_environment));
         }
     }
 
@@ -145,9 +203,8 @@ impl LitPatches {
         (model_view, normal_matrix): (&ModelView, &NormalMatrix),
         shared: Shared,
         backend: &mut impl Backend,
-        report: &mut FrameReport,
     ) {
-        report.triangles_in += look.triangles;
+        self.counts.triangles_in += look.triangles;
         let instance = self.instances.len() as u32;
         let record = InstanceRecord::new(&model_view.eye_from_model, normal_matrix.0, look.faces, shared.unit);
         self.instances.push(record);
@@ -165,8 +222,8 @@ impl LitPatches {
         let mut seen = std::mem::take(&mut self.seen);
         let sight = || Sight::new(model_view, shared.view, look.faces, &look.patches.whole);
         let culled_from = look.patches.see(sight, look.demand, &mut seen) as u32;
-        report.patches += culled_from;
-        report.patches_culled += culled_from.saturating_sub(seen.len() as u32);
+        self.counts.patches += culled_from;
+        self.counts.patches_culled += culled_from.saturating_sub(seen.len() as u32);
         if placed.key.lists == Lists::Listed {
             self.add_listed(look, &placed, &seen, shared);
         } else if !seen.is_empty() {

@@ -9,7 +9,6 @@ pub mod key;
 pub(crate) mod lit_looks;
 pub mod lit_patches;
 pub mod lit_runs;
-pub mod looks;
 pub mod object;
 pub mod shown_objects;
 pub mod table;

@@ -1,14 +1,14 @@
 //! The visible objects, as their components and the view say.
 
 use crate::batch::key::MapLooks;
-use crate::batch::looks::{LookBits, Surface};
 use crate::batch::object::{Reflecting, wrong_paint};
 use crate::batch::table::MapsUse;
 use crate::geometry::meshes::{Form, Geometries, Geometry, Paint, PaintComponents};
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::shown_shading;
 use crate::view::camera::View;
-use crate::view::matrices::Visible;
+use crate::view::looks::{LookBits, Surface};
+use crate::view::select::Visible;
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
 use halfway_asset::{AssetId, Assets};
@@ -65,7 +65,9 @@ impl ShownObjects<'_, '_> {
     pub(super) fn get(&self, entity: Entity, lights_images: bool) -> Option<ShownObject<'_>> {
         let (mesh, material, back, reflectance, faces, components, tolerance, shading, name) =
             self.objects.get(entity).ok()?;
-        let bits = LookBits::new(Surface { mesh, material, back, shading, reflectance, faces, tolerance }, components);
+        let (colors, maps, alpha, solid) = components;
+        let surface = Surface { mesh, material, back, shading, reflectance, faces, colors, alpha, tolerance };
+        let bits = (maps.is_none() && solid.is_none()).then(|| LookBits::new(surface));
         let shading = shown_shading(shading, &self.view);
         let of_mesh = |mesh| Paint::new(mesh, components, shading, self.surroundings.are_there());
         let mut paint = self.meshes.get(&mesh.0).map_or(Paint::default(), of_mesh);

@@ -37,7 +37,7 @@ impl Twins {
         bits.resize(words, [0; 2]);
         let slot = |sphere| {
             let hash = hash(sphere);
-            (hash as usize / 64 & (words - 1), 1 << (hash % 64))
+            ((hash as usize / 64) & (words - 1), 1 << (hash % 64))
         };
         let mut any_shared = 0;
         for (_, sphere) in &*spheres {

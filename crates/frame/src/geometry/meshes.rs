@@ -7,7 +7,7 @@ use crate::lights::terms::{by_vertex_shader, shown_shading};
 use crate::report::FrameReport;
 use crate::values::{DrawsOnce, WaitsForLevels};
 use crate::view::camera::View;
-use crate::view::matrices::Visible;
+use crate::view::select::Representatives;
 use bevy_ecs::prelude::*;
 use bevy_math::{Vec2, Vec4};
 use bevy_platform::collections::HashMap;
@@ -140,6 +140,8 @@ pub struct Geometries {
     looked: (usize, usize),
     /// The number of meshes dropped since the start.
     pub(crate) forgotten: u64,
+    /// The number of meshes laid out since the start.
+    pub(crate) laid_out: u64,
 }
 
 impl Geometries {
@@ -203,6 +205,7 @@ impl Geometries {
         let triangles = Some(corners);
         let geometry = Geometry { patches, source: mesh.clone(), drawn, opposite_normals, triangles, moves, pieces };
         self.meshes.insert((id, form), geometry);
+        self.laid_out += 1;
     }
 }
 
@@ -242,7 +245,7 @@ type LaidOut = (&'static Mesh3d, Option<&'static Shading>, PaintComponents, Opti
 pub(crate) fn lay_out(
     meshes: Res<Assets<Mesh>>,
     objects: Query<LaidOut>,
-    visible: Res<Visible>,
+    representatives: Res<Representatives>,
     view: Res<View>,
     surroundings: Res<Surroundings>,
     (waits, once): (Res<WaitsForLevels>, Res<DrawsOnce>),
@@ -252,7 +255,7 @@ pub(crate) fn lay_out(
 ) {
     workshop.collect();
     let mut last = None;
-    for (Mesh3d(handle), shading, paint, tolerance) in objects.iter_many(&visible.0).flatten() {
+    for (Mesh3d(handle), shading, paint, tolerance) in objects.iter_many(&representatives.0).flatten() {
         let Some(mesh) = meshes.get(handle) else { continue };
         let shading = shown_shading(shading, &view);
         let paint = Paint::new(mesh, paint, shading, surroundings.are_there());

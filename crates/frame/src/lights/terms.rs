@@ -3,7 +3,7 @@
 use crate::error::{RenderError, label};
 use crate::report::FrameReport;
 use crate::view::camera::View;
-use crate::view::matrices::Visible;
+use crate::view::select::{Representatives, Visible};
 use bevy_ecs::prelude::*;
 use halfway_lighting::{Frequency, Shading, Terms};
 
@@ -26,17 +26,20 @@ pub fn by_fragment_shader(terms: Terms) -> [bool; 2] {
 /// Reports objects whose terms cannot be drawn together, and leaves them out.
 pub(crate) fn check(
     objects: Query<(Option<&Shading>, Option<&Name>)>,
+    representatives: Res<Representatives>,
     mut visible: ResMut<Visible>,
     view: Res<View>,
     mut report: ResMut<FrameReport>,
 ) {
+    let wrong = |entity: Entity| shown_shading(objects.get(entity).ok()?.0, &view).validate().err();
+    // Objects with equal components are right or wrong together.
+    if !representatives.0.iter().any(|&entity| wrong(entity).is_some()) {
+        return;
+    }
     visible.0.retain(|&entity| {
-        let Ok((shading, name)) = objects.get(entity) else { return false };
-        let checked = shown_shading(shading, &view).validate();
-        if let Err(source) = checked {
-            report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
-            return false;
-        }
-        true
+        let Some(source) = wrong(entity) else { return true };
+        let name = objects.get(entity).ok().and_then(|(_, name)| name);
+        report.errors.push(RenderError::Invalid { entity: label(entity, name), source });
+        false
     });
 }

@@ -1,17 +1,11 @@
-//! Select and Matrices: what the frustum sees, and its model-view and normal matrices.
+//! Model-view and normal matrices.
 
-use crate::error::{RenderError, bad_transform, label};
-use crate::report::FrameReport;
-use crate::view::camera::View;
 use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, DAffine3, DMat3, DVec3, Mat3};
 use bevy_transform::components::GlobalTransform;
-use halfway_asset::Assets;
-use halfway_lighting::{Camera, Edges, Shown};
-use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 
 /// `eye_from_model` of an object, composed in f64 relative to the camera and rounded once.
-/// Holds for visible objects after [`RenderSet::Matrices`](crate::sets::RenderSet::Matrices).
+/// Holds for visible objects after [`RenderSet::Select`](crate::sets::RenderSet::Select).
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct ModelView {
     /// Model to eye.
@@ -24,6 +18,16 @@ pub struct ModelView {
 }
 
 impl ModelView {
+    /// Of an object with this transform, as the view with this epoch sees it.
+    pub(crate) fn of_object(eye_from_model: &DAffine3, epoch: u64, transform: &GlobalTransform) -> Self {
+        Self { made_from: Some((epoch, transform.affine())), ..Self::new(eye_from_model) }
+    }
+
+    /// Whether it is what [`of_object`](Self::of_object) makes of these.
+    pub(crate) fn is_of(&self, epoch: u64, transform: &GlobalTransform) -> bool {
+        self.made_from == Some((epoch, transform.affine()))
+    }
+
     pub(crate) fn new(eye_from_model: &DAffine3) -> Self {
         let DAffine3 { matrix3: m, translation } = eye_from_model;
         Self {
@@ -51,124 +55,15 @@ impl ModelView {
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct NormalMatrix(pub Mat3);
 
-/// The objects that are not [hidden](halfway_lighting::Visibility) and whose bounding sphere meets the frustum, in
-/// spawn order.
-/// Holds after [`RenderSet::Select`](crate::sets::RenderSet::Select).
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Visible(pub Vec<Entity>);
-
-type MeshQuery<'w, 's> = Query<
-    'w,
-    's,
-    (
-        Entity,
-        &'static Mesh3d,
-        &'static GlobalTransform,
-        &'static SpawnOrder,
-        Option<&'static Name>,
-        Option<&'static Edges>,
-    ),
->;
-
-pub(crate) fn select(
-    (objects, cameras): (MeshQuery, Query<&Edges, With<Camera>>),
-    shown: Shown,
-    meshes: Res<Assets<Mesh>>,
-    mut view: ResMut<View>,
-    mut visible: ResMut<Visible>,
-    mut report: ResMut<FrameReport>,
-    // Its memory is kept.
-    mut seen: Local<Vec<(SpawnOrder, Entity)>>,
-) {
-    visible.0.clear();
-    seen.clear();
-    if view.camera.is_none() {
-        return;
-    }
-    let is_shown = shown.by_entity();
-    let of_camera = view.entity.and_then(|camera| cameras.get(camera).ok());
-    let mut farthest = 0.0;
-    let mut depths = [f64::INFINITY, f64::NEG_INFINITY];
-    for (entity, mesh, transform, order, name, edges) in objects.iter().filter(|(entity, ..)| is_shown(*entity)) {
-        report.objects += 1;
-        // A wireframe has no surface.
-        if edges.or(of_camera).is_some_and(|edges| !edges.surface) {
-            continue;
-        }
-        let Some(mesh) = meshes.get(&mesh.0) else {
-            report.errors.push(RenderError::MissingMesh { entity: label(entity, name) });
-            continue;
-        };
-        if mesh.triangle_count() == 0 {
-            continue;
-        }
-        if !transform.affine().is_finite() {
-            report.errors.push(bad_transform(entity, name, transform));
-            continue;
-        }
-        let eye_from_model = compose(&view.eye_from_world, transform);
-        if is_flat_twice(&eye_from_model.matrix3) {
-            continue;
-        }
-        let bounds = mesh.bounds();
-        let center = eye_from_model.transform_point3(bounds.center().as_dvec3());
-        let radius = f64::from(bounds.radius()) * largest_scale(&eye_from_model.matrix3);
-        if view.lens.sees(center.as_vec3().to_array(), radius as f32) {
-            farthest = f64::max(farthest, center.length() + radius);
-            depths = [f64::min(depths[0], -center.z - radius), f64::max(depths[1], -center.z + radius)];
-            seen.push((*order, entity));
-        }
-    }
-    view.unit_exponent = unit_exponent(farthest);
-    view.lens = view.lens.fitted(depths.map(|depth| depth as f32));
-    seen.sort_unstable();
-    visible.0.extend(seen.iter().map(|&(_, entity)| entity));
-    report.visible = visible.0.len() as u32;
-}
-
 /// Whether a matrix maps everything to a line or a point, so that no triangle has an area. An area that only rounding
 /// leaves is not visible.
-fn is_flat_twice(m: &DMat3) -> bool {
+pub(super) fn is_flat_twice(m: &DMat3) -> bool {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *m;
     [x.cross(y), y.cross(z), z.cross(x)].iter().all(|cofactors| *cofactors == DVec3::ZERO)
 }
 
-/// Of the unit in which the shaders measure a scene whose farthest visible point is at this distance: squares of
-/// distances down to 10⁻¹⁷ of it, and of lights as far again beyond it, are normal numbers of f32. `SwiftShader` also
-/// multiplies the depths of three corners: from 10¹² on interpolated values lose their perspective.
-fn unit_exponent(farthest: f64) -> i32 {
-    const MOST: i32 = 30;
-    const LEAST: i32 = -40;
-    let exponent = farthest.log2().ceil();
-    match exponent as i32 {
-        _ if !exponent.is_finite() => 0,
-        large if large > MOST => MOST - large,
-        small if small < LEAST => -small,
-        _ => 0,
-    }
-}
-
-pub(crate) fn compute(
-    mut objects: Query<(&GlobalTransform, &mut ModelView, &mut NormalMatrix)>,
-    visible: Res<Visible>,
-    view: Res<View>,
-    mut report: ResMut<FrameReport>,
-) {
-    for &entity in &visible.0 {
-        let Ok((transform, mut model_view, mut normal_matrix)) = objects.get_mut(entity) else { continue };
-        let source = (view.epoch, transform.affine());
-        if model_view.made_from == Some(source) {
-            continue;
-        }
-        let eye_from_model = compose(&view.eye_from_world, transform);
-        *model_view = ModelView { made_from: Some(source), ..ModelView::new(&eye_from_model) };
-        normal_matrix.0 = self::normal_matrix(&eye_from_model.matrix3);
-        report.matrices += 1;
-    }
-}
-
 /// `eye_from_model` in f64. Both transforms are world-sized, so only their difference is rounded.
-fn compose(eye_from_world: &DAffine3, world_from_model: &GlobalTransform) -> DAffine3 {
+pub(super) fn compose(eye_from_world: &DAffine3, world_from_model: &GlobalTransform) -> DAffine3 {
     let affine = world_from_model.affine();
     let world_from_model = DAffine3 {
         matrix3: DMat3::from_cols_array(&affine.matrix3.to_cols_array().map(f64::from)),
@@ -179,7 +74,7 @@ fn compose(eye_from_world: &DAffine3, world_from_model: &GlobalTransform) -> DAf
 
 /// An upper bound of how much the matrix stretches a length: the Frobenius norm, or the exact factor
 /// where the columns are orthogonal, as they are without shear.
-fn largest_scale(m: &DMat3) -> f64 {
+pub(super) fn largest_scale(m: &DMat3) -> f64 {
     let lengths = [m.x_axis, m.y_axis, m.z_axis].map(DVec3::length);
     let [x, y, z] = lengths;
     let largest = x.max(y).max(z);

@@ -43,6 +43,10 @@ impl Backend for Cpu {
     fn looks_up(&mut self, _: DrawKey) -> bool {
         true
     }
+
+    fn is_settled(&self) -> bool {
+        true
+    }
 }
 
 /// Prepares the memory that the frame is drawn into.

@@ -16,7 +16,7 @@ use bevy_transform::components::{GlobalTransform, Transform};
 use halfway_asset::{AssetId, Assets, Handle};
 use halfway_frame::error::RenderError;
 use halfway_frame::view::camera::{PictureSize, View};
-use halfway_frame::view::matrices::Visible;
+use halfway_frame::view::select::Visible;
 use halfway_lighting::{
     AlphaMode, BackMaterial, Camera, Encoding, Faces, Frequency, GlobalAmbient, Intensity, Material, Samples, Shading,
     Terms, VertexColors,

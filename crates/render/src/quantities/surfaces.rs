@@ -9,7 +9,8 @@ use bevy_transform::components::GlobalTransform;
 use halfway_asset::Assets;
 use halfway_frame::error::RenderError;
 use halfway_frame::view::camera::{PictureSize, View, eye_from_world};
-use halfway_frame::view::matrices::{Visible, normal_matrix};
+use halfway_frame::view::matrices::normal_matrix;
+use halfway_frame::view::select::Visible;
 use halfway_lighting::{Camera, FrameOrigin, Lens, current_camera};
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 

@@ -44,6 +44,8 @@ pub(crate) struct Pipelines {
     /// The last key of this frame, and the key that was admitted for it.
     last: Option<(DrawKey, DrawKey)>,
     compile: Option<Compile>,
+    /// The newest frame with other answers than the one before may have had.
+    unsettled: u64,
     background: Background,
     /// Pipelines that a frame has waited for, and whose generic relatives are not requested yet.
     unforeseen: Vec<PipelineKey>,
@@ -87,6 +89,7 @@ impl Pipelines {
     /// Begins a frame, and collects pipelines built in the background.
     fn begin(&mut self, gpu: &Gpu, output: ShaderOutput, compile: Compile) {
         self.frame += 1;
+        let before = (self.output, self.compile, self.lights_images_by_environments);
         self.output = output;
         self.lights_images_by_environments = gpu.lights_images_by_environments();
         (self.full, self.last) = (false, None);
@@ -97,6 +100,10 @@ impl Pipelines {
             self.background = Builder::start(gpu, &self.shaders).map_or(Background::Unavailable, Background::Running);
         }
         self.compile = Some(if matches!(self.background, Background::Unavailable) { Compile::Now } else { compile });
+        let is_same = before == (self.output, self.compile, self.lights_images_by_environments);
+        if !is_same || !self.refused_before.is_empty() || !self.waits() && !self.unforeseen.is_empty() {
+            self.unsettled = self.frame;
+        }
         if !self.waits() {
             for key in std::mem::take(&mut self.unforeseen) {
                 for draw in key.draw.relatives() {
@@ -115,6 +122,7 @@ impl Pipelines {
                 self.variants.get_mut(&key).filter(|variant| matches!(variant.state, VariantState::Asked))
             {
                 variant.state = VariantState::new(key, result);
+                self.unsettled = self.frame;
                 match &variant.state {
                     VariantState::Failed(error) => self.failures.push(error.clone()),
                     _ => self.built += 1,
@@ -221,6 +229,7 @@ impl Pipelines {
             log::debug!("building pipeline {key}");
             *state = VariantState::new(key, build(gpu, &self.shaders, key));
             self.awaited += 1;
+            self.unsettled = self.frame + 1;
             self.built += u32::from(matches!(state, VariantState::Built(_)));
             if self.compile == Some(Compile::Beside) {
                 self.unforeseen.push(key);
@@ -282,6 +291,10 @@ impl Backend for Pipelines {
         }
         self.ask(self.key(key.generic().looking_up()));
         self.is_there(key.looking_up())
+    }
+
+    fn is_settled(&self) -> bool {
+        self.unsettled < self.frame
     }
 }
 

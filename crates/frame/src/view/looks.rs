@@ -1,7 +1,6 @@
 //! Looks: objects whose components are equal are drawn alike wherever they are, so that what follows from the components
 //! is found once for all of them. The number of a look is kept with each object while nothing of it changes.
 
-use crate::geometry::meshes::PaintOf;
 use bevy_ecs::change_detection::{ContiguousRef, Tick};
 use bevy_ecs::prelude::*;
 use bevy_platform::collections::HashMap;
@@ -21,8 +20,8 @@ pub struct Look {
     components: u32,
 }
 
-/// The components that make a look, as bits. All of an object that matters beside its place, unless it has images or is
-/// cut from a solid; such objects have looks of their own.
+/// The components that make a look, as bits: all of an object that matters beside its place, unless it has images or is
+/// cut from a solid. Such objects have no number.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct LookBits {
     mesh: AssetId<Mesh>,
@@ -36,7 +35,7 @@ pub(crate) struct LookBits {
     tolerance: Option<[u32; 2]>,
 }
 
-/// The components that say how an object reflects light, but for its paint.
+/// The components that make the look of an object without images that is not cut from a solid.
 #[derive(Clone, Copy)]
 pub(crate) struct Surface<'a> {
     pub(crate) mesh: &'a Mesh3d,
@@ -45,18 +44,16 @@ pub(crate) struct Surface<'a> {
     pub(crate) shading: Option<&'a Shading>,
     pub(crate) reflectance: Option<&'a Reflectance>,
     pub(crate) faces: Option<&'a Faces>,
+    pub(crate) colors: Option<&'a VertexColors>,
+    pub(crate) alpha: Option<&'a AlphaMode>,
     pub(crate) tolerance: Option<&'a Tolerance>,
 }
 
 impl LookBits {
-    /// `None` for an object with images or a solid.
-    pub(crate) fn new(surface: Surface, (colors, maps, alpha, solid): PaintOf) -> Option<Self> {
-        if maps.is_some() || solid.is_some() {
-            return None;
-        }
-        let Surface { mesh, material, back, shading, reflectance, faces, tolerance } = surface;
+    pub(crate) fn new(surface: Surface) -> Self {
+        let Surface { mesh, material, back, shading, reflectance, faces, colors, alpha, tolerance } = surface;
         let alpha = alpha.copied().unwrap_or_default();
-        Some(Self {
+        Self {
             mesh: mesh.0.id(),
             materials: [material, back.map(|back| &back.0)].map(|side| side.map(|side| bytemuck::cast(*side))),
             shading: shading.copied(),
@@ -66,7 +63,7 @@ impl LookBits {
             cutoff: alpha.cutoff().map(f32::to_bits),
             blends: alpha.blends(),
             tolerance: tolerance.map(|of| [of.steps, of.pixels].map(f32::to_bits)),
-        })
+        }
     }
 }
 
@@ -77,11 +74,13 @@ pub struct Looks {
     generation: u32,
     /// How many different ones the frame has.
     pub(crate) used: usize,
+    /// How often a look has been found or forgotten.
+    pub(crate) changes: u64,
 }
 
 impl Default for Looks {
     fn default() -> Self {
-        Self { numbers: HashMap::default(), generation: 1, used: 0 }
+        Self { numbers: HashMap::default(), generation: 1, used: 0, changes: 0 }
     }
 }
 
@@ -98,13 +97,16 @@ impl Looks {
     pub(crate) fn number(&mut self, look: &mut Look, bits: LookBits) -> u32 {
         let next = self.numbers.len() as u32;
         let number = *self.numbers.entry(bits).or_insert(next);
-        *look = Look { number, generation: self.generation, ..*look };
+        let found = Look { number, generation: self.generation, ..*look };
+        self.changes += u64::from(*look != found);
+        *look = found;
         number
     }
 
     /// Forgets all, where materials that change in every frame have piled up.
     fn begin(&mut self) {
         if self.numbers.len() > Self::REMEMBERED.max(2 * self.used) {
+            self.changes += 1;
             self.numbers.clear();
             self.generation = self.generation.wrapping_add(1).max(1);
         }
@@ -136,12 +138,21 @@ fn changes<T>(of: ContiguousRef<'_, T>) -> (&[Tick], [Tick; 2]) {
 /// So many objects are looked at together.
 const ROW: usize = 256;
 
-/// Forgets the looks of objects of which a component has changed, come or gone.
-pub(crate) fn forget_changed(mut objects: Query<(&mut Look, Components)>, mut looks: ResMut<Looks>) {
+/// Forgets the looks of objects of which a component has changed, come or gone, and of those that were not there before:
+/// while an object is disabled nothing looks at its components.
+pub(crate) fn forget_changed(
+    mut objects: Query<(Entity, &mut Look, Components)>,
+    mut looks: ResMut<Looks>,
+    mut entities_before: Local<Vec<Vec<Entity>>>,
+) {
     looks.begin();
     // All of the components are kept in tables.
     let Ok(tables) = objects.contiguous_iter_mut() else { return };
-    for (mut of_objects, components) in tables {
+    for (number, (entities, mut of_objects, components)) in tables.enumerate() {
+        if entities_before.len() == number {
+            entities_before.push(Vec::new());
+        }
+        let before = &mut entities_before[number];
         let of_objects = of_objects.bypass_change_detection();
         let (mesh, material, back, shading, reflectance, faces, colors, maps, alpha, solid, tolerance) = components;
         let changes: [Changes; 11] = [
@@ -159,25 +170,34 @@ pub(crate) fn forget_changed(mut objects: Query<(&mut Look, Components)>, mut lo
         ];
         let there = changes.iter().rev().fold(0, |bits, change| bits << 1 | u32::from(change.is_some()));
         let count = of_objects.len();
+        let has_changed = |row: Range<usize>, of_objects: &[Look]| {
+            before.get(row.clone()) != entities.get(row.clone())
+                || of_objects[row.clone()].iter().any(|look| look.components != there)
+                || changes.iter().flatten().any(|&(ticks, [last, now])| any_newer(&ticks[row.clone()], last, now))
+        };
+        let changes_before = looks.changes;
         for start in (0..count).step_by(ROW) {
             let row = start..count.min(start + ROW);
-            if any_changed(&of_objects[row.clone()], &changes, row.clone(), there) {
+            if has_changed(row.clone(), of_objects) {
+                looks.changes += 1;
                 for at in row {
-                    if any_changed(&of_objects[at..=at], &changes, at..at + 1, there) {
+                    if has_changed(at..at + 1, of_objects) {
                         of_objects[at] = Look { components: there, ..Look::default() };
                     }
                 }
             }
         }
+        if looks.changes != changes_before || before.len() != count {
+            before.clear();
+            before.extend_from_slice(entities);
+        }
     }
 }
 
-/// Whether a component of any of these objects has changed, come or gone.
-fn any_changed(looks: &[Look], changes: &[Changes], row: Range<usize>, there: u32) -> bool {
-    let of_component = |&(ticks, [last, this]): &(&[Tick], [Tick; 2])| {
-        ticks[row.clone()].iter().fold(false, |any, tick| any | tick.is_newer_than(last, this))
-    };
-    looks.iter().fold(false, |any, look| any | (look.components != there)) || changes.iter().flatten().any(of_component)
+/// Whether any tick is newer than the `last` frame, where it is `now`. All are compared, many at once: seldom is any
+/// newer.
+pub(crate) fn any_newer(ticks: &[Tick], last: Tick, now: Tick) -> bool {
+    ticks.iter().fold(false, |any, tick| any | tick.is_newer_than(last, now))
 }
 
 #[cfg(test)]
@@ -208,7 +228,7 @@ mod tests {
         let mut frame = Schedule::default();
         frame.add_systems(forget_changed);
         let mut object = || world.spawn((Mesh3d::default(), Look::default())).id();
-        let (changing, other) = (object(), object());
+        let (other, changing) = (object(), object());
         let known = |world: &mut World, of: Entity| {
             let look = *world.get::<Look>(of).expect("an object");
             world.resource::<Looks>().known(look).is_some()
@@ -222,9 +242,11 @@ mod tests {
                 shading: None,
                 reflectance: None,
                 faces: None,
+                colors: None,
+                alpha: None,
                 tolerance: None,
             };
-            let bits = LookBits::new(surface, (None, None, None, None)).expect("neither images nor a solid");
+            let bits = LookBits::new(surface);
             let mut look = *world.get::<Look>(of).expect("an object");
             world.resource_mut::<Looks>().number(&mut look, bits);
             world.entity_mut(of).insert(look);
@@ -275,9 +297,11 @@ mod tests {
                 shading: None,
                 reflectance: None,
                 faces: None,
+                colors: None,
+                alpha: None,
                 tolerance: None,
             };
-            let bits = LookBits::new(surface, (None, None, None, None)).expect("neither images nor a solid");
+            let bits = LookBits::new(surface);
             let number = looks.number(&mut look, bits);
             assert_eq!(looks.known(look), Some(number));
             assert!(number as usize <= Looks::REMEMBERED, "{number}");
