@@ -35,6 +35,20 @@ impl Curve {
         Self { times, values, width, interpolation }
     }
 
+    /// The times of the key frames.
+    pub(crate) fn times(&self) -> &[f32] {
+        &self.times
+    }
+
+    /// The numbers of all key frames.
+    pub(crate) fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    pub(crate) fn interpolation(&self) -> Interpolation {
+        self.interpolation
+    }
+
     /// The time of the last key frame.
     pub(crate) fn end(&self) -> f64 {
         self.times.last().copied().map_or(0.0, f64::from)

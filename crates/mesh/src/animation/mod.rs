@@ -47,7 +47,8 @@ use crate::Mesh;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Animations {
     pub(crate) clips: Vec<Clip>,
-    /// Parents come before their children.
+    /// Those of the scene, each before what is below it and children in the order of the file; then the others, parents
+    /// before their children.
     pub(crate) nodes: Vec<Node>,
     pub(crate) parts: Vec<Placed>,
     pub(crate) lines: Vec<Placed>,
@@ -88,17 +89,34 @@ pub(crate) enum Target {
 /// A node, in the pose of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Node {
+    /// Its name in the file; empty where it has none.
+    pub(crate) name: String,
     pub(crate) parent: Option<usize>,
     pub(crate) local: Local,
     /// The weights of the morph targets of its mesh.
     pub(crate) weights: Vec<f32>,
 }
 
+/// The matrices of nodes, parents of which come before their children.
+pub(crate) fn worlds(nodes: &[Node]) -> Vec<DMat4> {
+    let mut worlds: Vec<DMat4> = Vec::with_capacity(nodes.len());
+    for node in nodes {
+        let parent = node.parent.map_or(DMat4::IDENTITY, |parent| worlds[parent]);
+        worlds.push(parent * node.local.matrix());
+    }
+    worlds
+}
+
 /// The transform of a node: to its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Local {
     Matrix(DMat4),
-    Parts { translation: DVec3, rotation: DQuat, scale: DVec3 },
+    /// The rotation as the file has it, of any length but 0; a channel's may be 0, and then turns nothing.
+    Parts {
+        translation: DVec3,
+        rotation: DQuat,
+        scale: DVec3,
+    },
 }
 
 impl Local {
@@ -106,7 +124,7 @@ impl Local {
         match *self {
             Self::Matrix(matrix) => matrix,
             Self::Parts { translation, rotation, scale } => {
-                DMat4::from_scale_rotation_translation(scale, rotation, translation)
+                DMat4::from_scale_rotation_translation(scale, curve::unit(rotation), translation)
             }
         }
     }
@@ -120,7 +138,7 @@ impl Local {
         match (target, value) {
             (Target::Translation, &[x, y, z]) => translation = DVec3::new(x, y, z),
             (Target::Scale, &[x, y, z]) => scale = DVec3::new(x, y, z),
-            (Target::Rotation, &[x, y, z, w]) => rotation = curve::unit(DQuat::from_xyzw(x, y, z, w)),
+            (Target::Rotation, &[x, y, z, w]) => rotation = DQuat::from_xyzw(x, y, z, w),
             _ => return,
         }
         *self = Self::Parts { translation, rotation, scale };
@@ -212,12 +230,10 @@ impl Animations {
                 moves[channel.node] = true;
             }
         }
-        let mut worlds: Vec<DMat4> = Vec::with_capacity(nodes.len());
         for (i, node) in nodes.iter().enumerate() {
-            let parent = node.parent.map_or(DMat4::IDENTITY, |parent| worlds[parent]);
-            worlds.push(parent * node.local.matrix());
             moves[i] |= node.parent.is_some_and(|parent| moves[parent]);
         }
+        let worlds = worlds(&nodes);
         let matrix = |placed: &Placed| {
             let matrix = less(worlds[placed.node] * placed.node_from_part, self.origin).as_mat4();
             matrix.is_finite().then_some(matrix)

@@ -30,3 +30,4 @@ mod surfaces_patches;
 mod tangents;
 mod threemf;
 mod write;
+mod write_animations;

@@ -12,7 +12,8 @@ use crate::animation::{Local, Node};
 const ROUNDED: f32 = 1e-5;
 
 /// The nodes that something stands at: those of the scene, and the joints of skins with all that is above them.
-pub(super) struct Nodes {
+pub(super) struct Nodes<'a> {
+    document: &'a Document,
     transforms: Vec<NodeTransform>,
     /// The parent of each node of the file.
     parents: Vec<Option<usize>>,
@@ -25,15 +26,15 @@ pub(super) struct Nodes {
     pub(super) mended: Option<(usize, String)>,
 }
 
-impl Nodes {
-    pub(super) fn new(document: &Document, transforms: Vec<NodeTransform>) -> Self {
+impl<'a> Nodes<'a> {
+    pub(super) fn new(document: &'a Document, transforms: Vec<NodeTransform>) -> Self {
         let count = document.nodes().len();
         let mut parents = vec![None; count];
         for node in document.nodes() {
             node.children().for_each(|child| parents[child.index()] = Some(node.index()));
         }
         let (entered, worlds) = (Vec::new(), Vec::new());
-        Self { transforms, parents, places: vec![None; count], entered, worlds, mended: None }
+        Self { document, transforms, parents, places: vec![None; count], entered, worlds, mended: None }
     }
 
     /// Enters a node below another one, which has been entered; returns its place.
@@ -50,7 +51,8 @@ impl Nodes {
             return Err(Fault::element(format!("nodes[{node}]"), found, "a smaller one is"));
         }
         self.worlds.push(world);
-        self.entered.push(Node { parent, local, weights: Vec::new() });
+        let name = self.document.as_json().nodes.get(node).and_then(|node| node.name.clone()).unwrap_or_default();
+        self.entered.push(Node { name, parent, local, weights: Vec::new() });
         self.places[node] = Some(self.worlds.len() - 1);
         Ok(self.worlds.len() - 1)
     }
@@ -108,9 +110,10 @@ fn local(node: usize, transform: &NodeTransform, mended: &mut Option<(usize, Str
     check_finite(&|| field("rotation"), &rotation.map(|x| x as f32))?;
     check_finite(&|| field("scale"), &scale.map(|x| x as f32))?;
     let quaternion = DQuat::from_array(rotation);
+    // Its length is of no account, but written again it has the same digits.
     if quaternion.length() == 0.0 {
         return Err(Fault::element(field("rotation"), format!("{rotation:?}"), "a unit quaternion is"));
     }
     let (translation, scale) = (DVec3::from_array(translation), DVec3::from_array(scale));
-    Ok(Local::Parts { translation, rotation: quaternion.normalize(), scale })
+    Ok(Local::Parts { translation, rotation: quaternion, scale })
 }

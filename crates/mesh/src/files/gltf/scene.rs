@@ -33,20 +33,37 @@ pub(super) struct Contents {
 /// where there is no scene.
 pub(super) fn read<'a>(
     document: &'a Document,
-    nodes: &mut Nodes,
+    nodes: &mut Nodes<'a>,
     primitives: &mut Primitives<'a>,
 ) -> Result<Contents, Fault> {
-    let seen = vec![false; document.nodes().len()];
+    // The nodes are entered before skins are read, whose joints would come before their turn.
+    let shown = enter(document, nodes)?;
     let skins = Skins::new(document);
-    let mut reader = SceneReader { document, nodes, primitives, skins, seen, contents: Contents::default() };
-    // Children are put on the stack last to first, so that nodes come in the order of the file.
-    let mut stack: Vec<(Node, Option<usize>)> = roots(document).into_iter().rev().map(|node| (node, None)).collect();
-    while let Some((node, parent)) = stack.pop() {
-        reader.visit(&node, parent)?;
-        let children: Vec<Node> = node.children().collect();
-        stack.extend(children.into_iter().rev().map(|child| (child, Some(node.index()))));
+    let mut reader = SceneReader { document, nodes, primitives, skins, contents: Contents::default() };
+    for (node, place) in &shown {
+        reader.visit(node, *place)?;
     }
     Ok(reader.contents)
+}
+
+/// Enters the nodes of the scene; returns them with their places. Each comes before what is below it, children in the
+/// order of the file, so that writers can give the parts back in their order.
+fn enter<'a>(document: &'a Document, nodes: &mut Nodes<'a>) -> Result<Vec<(Node<'a>, usize)>, Fault> {
+    let mut seen = vec![false; document.nodes().len()];
+    let mut shown = Vec::new();
+    // Children are put on the stack last to first.
+    let mut stack: Vec<(Node, Option<usize>)> = roots(document).into_iter().rev().map(|node| (node, None)).collect();
+    while let Some((node, parent)) = stack.pop() {
+        if std::mem::replace(&mut seen[node.index()], true) {
+            let expected = "a tree, in which every node has one parent at most, is";
+            return Err(Fault::element(format!("nodes[{}]", node.index()), "reached twice", expected));
+        }
+        let place = nodes.enter(node.index(), parent)?;
+        let children: Vec<Node> = node.children().collect();
+        stack.extend(children.into_iter().rev().map(|child| (child, Some(node.index()))));
+        shown.push((node, place));
+    }
+    Ok(shown)
 }
 
 fn roots(document: &Document) -> Vec<Node<'_>> {
@@ -62,22 +79,15 @@ fn roots(document: &Document) -> Vec<Node<'_>> {
 
 struct SceneReader<'r, 'a> {
     document: &'a Document,
-    nodes: &'r mut Nodes,
+    nodes: &'r mut Nodes<'a>,
     primitives: &'r mut Primitives<'a>,
     skins: Skins<'a>,
-    seen: Vec<bool>,
     contents: Contents,
 }
 
 impl<'a> SceneReader<'_, 'a> {
-    /// Reads the contents of a node.
-    fn visit(&mut self, node: &Node<'a>, parent: Option<usize>) -> Result<(), Fault> {
-        let element = || format!("nodes[{}]", node.index());
-        if std::mem::replace(&mut self.seen[node.index()], true) {
-            let expected = "a tree, in which every node has one parent at most, is";
-            return Err(Fault::element(element(), "reached twice", expected));
-        }
-        let place = self.nodes.enter(node.index(), parent)?;
+    /// Reads the contents of a node, by its place.
+    fn visit(&mut self, node: &Node<'a>, place: usize) -> Result<(), Fault> {
         let at = || Placed { node: place, node_from_part: DMat4::IDENTITY, shape: None, skin: None };
         if let Some(light) = node.light() {
             self.contents.lights.push((source_light(node, &light)?, at()));
@@ -94,7 +104,8 @@ impl<'a> SceneReader<'_, 'a> {
             for node_from_part in &places {
                 if self.contents.parts.len() + self.contents.lines.len() == MOST_PARTS {
                     let found = format!("more than {MOST_PARTS} primitives shown");
-                    return Err(Fault::element(element(), found, "fewer are"));
+                    let element = format!("nodes[{}]", node.index());
+                    return Err(Fault::element(element, found, "fewer are"));
                 }
                 let placed = Placed { node_from_part: *node_from_part, ..at() };
                 let (name, material) = (name.to_owned(), primitive.material().index());

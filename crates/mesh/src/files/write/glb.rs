@@ -1,10 +1,12 @@
 //! glTF 2.0, binary or as text with files beside it.
 
+mod moving;
+
 use std::collections::HashMap;
 use std::io::Write as _;
 use std::path::Path;
 
-use glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
+use glam::{DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
 use serde_json::{Map, Value, json};
 
 use super::file::{WriteError, replace};
@@ -26,32 +28,37 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 const POINTS: u32 = 0;
 const LINES: u32 = 1;
 
-/// Writes a node for each part, group of lines, light and camera; parts that share a mesh and a material share it in the file.
-pub(super) fn write(path: &Path, model: &Model, quantised: bool) -> Result<Vec<String>, WriteError> {
+/// Writes a node for each part, group of lines, light and camera, or those of the model's animations; parts that share a
+/// mesh and a material share it in the file. Returns also how far a position moved at most.
+pub(super) fn write(path: &Path, model: &Model, quantised: bool) -> Result<(f64, Vec<String>), WriteError> {
     let in_text = Format::from_path(path) == Some(Format::Gltf);
     let mut file = Document { quantised, in_text, ..Document::default() };
     let mut maps = Maps::new(path);
-    for part in &model.parts {
-        file.part(part);
+    let mut lost = Vec::new();
+    match &model.animations {
+        Some(animations) if moving::fits(animations, model) => file.moving(animations, model),
+        animations => {
+            lost.extend(animations.as_ref().map(|animations| {
+                let count = animations.clips.len();
+                format!("{count} animations, which move the model as it was read; it is written in its pose")
+            }));
+            file.still(model);
+        }
     }
-    for part in &model.lines {
-        file.lines(part);
-    }
-    file.lights(&model.lights);
-    file.cameras(&model.cameras);
     let materials = model.materials.iter().map(|source| maps.material(source, &mut file)).collect();
-    let mut json = file.json(materials, &maps, model.origin);
+    let mut json = file.json(materials, &maps);
     maps.files.write()?;
     let mtl = model.materials.iter().filter(|source| matches!(source, SourceMaterial::Mtl(_))).count();
-    let lost = format!("{mtl} MTL materials lose Ka, Ks, illum and what is above 1; Ns becomes a roughness");
-    let mut lost = if mtl > 0 { vec![lost] } else { Vec::new() };
+    if mtl > 0 {
+        lost.push(format!("{mtl} MTL materials lose Ka, Ks, illum and what is above 1; Ns becomes a roughness"));
+    }
     lost.extend(maps.files.into_lost());
     if in_text {
         let buffer = path.with_extension("bin");
         replace(&buffer, |out| out.write_all(&file.data))?;
         json["buffers"][0]["uri"] = json!(uri(&buffer.file_name().unwrap_or_default().to_string_lossy()));
         replace(path, |out| out.write_all(json.to_string().as_bytes()))?;
-        return Ok(lost);
+        return Ok((file.moved, lost));
     }
     // Chunks are padded to four bytes, the JSON with spaces.
     let mut text = json.to_string().into_bytes();
@@ -71,7 +78,7 @@ pub(super) fn write(path: &Path, model: &Model, quantised: bool) -> Result<Vec<S
         out.write_all(b"BIN\0")?;
         out.write_all(&file.data)
     })?;
-    Ok(lost)
+    Ok((file.moved, lost))
 }
 
 /// A file's name as a URI (RFC 3986).
@@ -93,31 +100,66 @@ struct Document {
     accessors: Vec<Value>,
     meshes: Vec<Value>,
     nodes: Vec<Value>,
+    /// The nodes without a parent.
+    roots: Vec<usize>,
     lights: Vec<Value>,
     cameras: Vec<Value>,
+    animations: Vec<Value>,
     /// The meshes already written, by the address of their data and by material.
     written: HashMap<(*const Vec3, Option<usize>), usize>,
+    /// How far a position moved at most.
+    moved: f64,
 }
 
 impl Document {
-    fn part(&mut self, part: &Part) {
+    /// A model that does not move.
+    fn still(&mut self, model: &Model) {
+        for part in &model.parts {
+            let (mesh, part_from_mesh) = self.mesh(part);
+            let world_from_mesh = match part_from_mesh {
+                Some(part_from_mesh) => (part.world_from_part.as_dmat4() * part_from_mesh).as_mat4(),
+                None => part.world_from_part,
+            };
+            self.root(&part.name, world_from_mesh, "mesh", mesh);
+        }
+        for part in &model.lines {
+            let mesh = self.lines(part);
+            self.root(&part.name, part.world_from_part, "mesh", mesh);
+        }
+        for light in &model.lights {
+            let extensions = self.light(light);
+            self.root("", light.world_from_light, "extensions", extensions);
+        }
+        for camera in &model.cameras {
+            let index = self.camera(camera);
+            self.root("", camera.world_from_camera, "camera", index);
+        }
+        if model.origin != DVec3::ZERO {
+            // Numbers of JSON have 64 bits, those of accessors 32.
+            self.nodes.push(json!({ "translation": model.origin.to_array(), "children": self.roots }));
+            self.roots = vec![self.nodes.len() - 1];
+        }
+    }
+
+    fn root(&mut self, name: &str, world_from_node: Mat4, key: &str, value: Value) {
+        let node = self.node(name, world_from_node.as_dmat4(), key, value);
+        self.roots.push(node);
+    }
+
+    /// The number of a part's mesh, and the transform that its integers take, if they are such.
+    fn mesh(&mut self, part: &Part) -> (Value, Option<DMat4>) {
         let key = (part.mesh.positions().as_ptr(), part.material);
         let mesh = if let Some(&mesh) = self.written.get(&key) {
             mesh
         } else {
-            let mesh = self.mesh(part);
+            let mesh = self.new_mesh(part);
             self.written.insert(key, mesh);
             mesh
         };
-        let mut world_from_mesh = part.world_from_part;
-        if self.quantised {
-            let steps = Grid::for_mesh(&part.mesh).mesh_from_steps();
-            world_from_mesh = (part.world_from_part.as_dmat4() * steps).as_mat4();
-        }
-        self.node(&part.name, world_from_mesh, "mesh", json!(mesh));
+        (json!(mesh), self.quantised.then(|| Grid::for_mesh(&part.mesh).mesh_from_steps()))
     }
 
-    fn mesh(&mut self, part: &Part) -> usize {
+    fn new_mesh(&mut self, part: &Part) -> usize {
         let mesh = &part.mesh;
         let attributes = if self.quantised { self.integers_of(mesh) } else { self.floats_of(mesh) };
         let indices = self.indices(mesh.indices(), mesh.positions().len());
@@ -129,7 +171,8 @@ impl Document {
         self.meshes.len() - 1
     }
 
-    fn lines(&mut self, part: &LinePart) {
+    /// The number of the mesh of lines and points.
+    fn lines(&mut self, part: &LinePart) -> Value {
         let key = (part.lines.address(), part.material);
         let mesh = if let Some(&mesh) = self.written.get(&key) {
             mesh
@@ -138,7 +181,7 @@ impl Document {
             self.written.insert(key, mesh);
             mesh
         };
-        self.node(&part.name, part.world_from_part, "mesh", json!(mesh));
+        json!(mesh)
     }
 
     /// A primitive of lines and one of points, as far as there are any.
@@ -195,6 +238,7 @@ impl Document {
 
     fn integers_of(&mut self, mesh: &Mesh) -> Map<String, Value> {
         let grid = Grid::for_mesh(mesh);
+        self.moved = self.moved.max(grid.largest_error());
         let steps: Vec<[u16; 3]> = mesh.positions().iter().map(|p| grid.round(p.as_dvec3())).collect();
         let bound = |pick: fn(u16, u16) -> u16| {
             steps.iter().copied().reduce(|a, b| [0, 1, 2].map(|axis| pick(a[axis], b[axis]))).unwrap_or_default()
@@ -244,7 +288,7 @@ impl Document {
     ) -> usize {
         let count = items.len();
         let bytes = items.flatten().flat_map(u16::to_le_bytes);
-        let accessor = self.accessor(bytes, ARRAY_BUFFER, component, shape, count);
+        let accessor = self.accessor(bytes, Some(ARRAY_BUFFER), component, shape, count);
         if normalized {
             self.accessors[accessor]["normalized"] = json!(true);
         }
@@ -256,7 +300,7 @@ impl Document {
 
     /// The corners of triangles, in 16 bits if that is asked for and suffices.
     fn indices(&mut self, indices: &[u32], vertices: usize) -> usize {
-        let (target, count) = (ELEMENT_ARRAY_BUFFER, indices.len());
+        let (target, count) = (Some(ELEMENT_ARRAY_BUFFER), indices.len());
         if !self.quantised || vertices > usize::from(u16::MAX) {
             let bytes = indices.iter().flat_map(|index| index.to_le_bytes());
             return self.accessor(bytes, target, UNSIGNED_INT, "SCALAR", count);
@@ -271,13 +315,14 @@ impl Document {
     fn floats<const N: usize>(&mut self, shape: &str, items: impl ExactSizeIterator<Item = [f32; N]>) -> usize {
         let count = items.len();
         let bytes = items.flatten().flat_map(f32::to_le_bytes);
-        self.accessor(bytes, ARRAY_BUFFER, FLOAT, shape, count)
+        self.accessor(bytes, Some(ARRAY_BUFFER), FLOAT, shape, count)
     }
 
+    /// Adds an accessor with a view of its own; `target` is what the GPU uses the view for.
     fn accessor(
         &mut self,
         bytes: impl Iterator<Item = u8>,
-        target: u32,
+        target: Option<u32>,
         component: u32,
         shape: &str,
         count: usize,
@@ -285,87 +330,82 @@ impl Document {
         let start = self.data.len();
         self.data.extend(bytes);
         let length = self.data.len() - start;
-        self.views.push(json!({ "buffer": 0, "byteOffset": start, "byteLength": length, "target": target }));
+        let mut view = json!({ "buffer": 0, "byteOffset": start, "byteLength": length });
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.views.push(view);
         let view = self.views.len() - 1;
         self.accessors.push(json!({ "bufferView": view, "componentType": component, "type": shape, "count": count }));
         self.accessors.len() - 1
     }
 
-    fn node(&mut self, name: &str, world_from_node: Mat4, key: &str, value: Value) {
+    /// Adds a node; returns its number.
+    fn node(&mut self, name: &str, parent_from_node: DMat4, key: &str, value: Value) -> usize {
         let mut node = Map::new();
         if !name.is_empty() {
             node.insert("name".to_owned(), json!(name));
         }
-        if world_from_node != Mat4::IDENTITY {
-            node.insert("matrix".to_owned(), json!(world_from_node.to_cols_array()));
+        if parent_from_node != DMat4::IDENTITY {
+            node.insert("matrix".to_owned(), json!(parent_from_node.to_cols_array()));
         }
         node.insert(key.to_owned(), value);
         self.nodes.push(Value::Object(node));
+        self.nodes.len() - 1
     }
 
-    fn lights(&mut self, lights: &[SourceLight]) {
-        for light in lights {
-            let mut described = json!({ "color": light.color, "intensity": light.intensity });
-            if !light.name.is_empty() {
-                described["name"] = json!(light.name);
+    /// Adds a light; returns the extensions of its node.
+    fn light(&mut self, light: &SourceLight) -> Value {
+        let mut described = json!({ "color": light.color, "intensity": light.intensity });
+        if !light.name.is_empty() {
+            described["name"] = json!(light.name);
+        }
+        if let Some(range) = light.range {
+            described["range"] = json!(range);
+        }
+        described["type"] = json!(match light.kind {
+            SourceLightKind::Directional => "directional",
+            SourceLightKind::Point => "point",
+            SourceLightKind::Spot { inner, outer } => {
+                described["spot"] = json!({ "innerConeAngle": inner, "outerConeAngle": outer });
+                "spot"
             }
-            if let Some(range) = light.range {
-                described["range"] = json!(range);
-            }
-            described["type"] = json!(match light.kind {
-                SourceLightKind::Directional => "directional",
-                SourceLightKind::Point => "point",
-                SourceLightKind::Spot { inner, outer } => {
-                    described["spot"] = json!({ "innerConeAngle": inner, "outerConeAngle": outer });
-                    "spot"
+        });
+        self.lights.push(described);
+        json!({ "KHR_lights_punctual": { "light": self.lights.len() - 1 } })
+    }
+
+    /// Adds a camera; returns its number.
+    fn camera(&mut self, camera: &SourceCamera) -> Value {
+        let mut described = match camera.projection {
+            SourceProjection::Perspective { yfov, aspect, near, far } => {
+                let mut perspective = json!({ "yfov": yfov, "znear": near });
+                if let Some(aspect) = aspect {
+                    perspective["aspectRatio"] = json!(aspect);
                 }
-            });
-            let extension = json!({ "KHR_lights_punctual": { "light": self.lights.len() } });
-            self.lights.push(described);
-            self.node("", light.world_from_light, "extensions", extension);
-        }
-    }
-
-    fn cameras(&mut self, cameras: &[SourceCamera]) {
-        for camera in cameras {
-            let mut described = match camera.projection {
-                SourceProjection::Perspective { yfov, aspect, near, far } => {
-                    let mut perspective = json!({ "yfov": yfov, "znear": near });
-                    if let Some(aspect) = aspect {
-                        perspective["aspectRatio"] = json!(aspect);
-                    }
-                    if let Some(far) = far {
-                        perspective["zfar"] = json!(far);
-                    }
-                    json!({ "type": "perspective", "perspective": perspective })
+                if let Some(far) = far {
+                    perspective["zfar"] = json!(far);
                 }
-                SourceProjection::Orthographic { half_width, half_height, near, far } => json!({
-                    "type": "orthographic",
-                    "orthographic": { "xmag": half_width, "ymag": half_height, "znear": near, "zfar": far },
-                }),
-            };
-            if !camera.name.is_empty() {
-                described["name"] = json!(camera.name);
+                json!({ "type": "perspective", "perspective": perspective })
             }
-            let index = self.cameras.len();
-            self.cameras.push(described);
-            self.node("", camera.world_from_camera, "camera", json!(index));
+            SourceProjection::Orthographic { half_width, half_height, near, far } => json!({
+                "type": "orthographic",
+                "orthographic": { "xmag": half_width, "ymag": half_height, "znear": near, "zfar": far },
+            }),
+        };
+        if !camera.name.is_empty() {
+            described["name"] = json!(camera.name);
         }
+        self.cameras.push(described);
+        json!(self.cameras.len() - 1)
     }
 
-    fn json(&self, materials: Vec<Value>, maps: &Maps, origin: DVec3) -> Value {
-        let mut nodes = self.nodes.clone();
-        let mut roots: Vec<usize> = (0..nodes.len()).collect();
-        if origin != DVec3::ZERO {
-            // Numbers of JSON have 64 bits, those of accessors 32.
-            nodes.push(json!({ "translation": origin.to_array(), "children": roots }));
-            roots = vec![nodes.len() - 1];
-        }
+    fn json(&self, materials: Vec<Value>, maps: &Maps) -> Value {
         let mut root = json!({
             "asset": { "version": "2.0", "generator": concat!("halfway ", env!("CARGO_PKG_VERSION")) },
             "scene": 0,
-            "scenes": [{ "nodes": roots }],
-            "nodes": nodes,
+            "scenes": [{ "nodes": self.roots }],
+            "nodes": self.nodes,
             "meshes": self.meshes,
             "accessors": self.accessors,
             "bufferViews": self.views,
@@ -375,8 +415,10 @@ impl Document {
         if !materials.is_empty() {
             root["materials"] = json!(materials);
         }
-        if !self.cameras.is_empty() {
-            root["cameras"] = json!(self.cameras);
+        for (key, values) in [("cameras", &self.cameras), ("animations", &self.animations)] {
+            if !values.is_empty() {
+                root[key] = json!(values);
+            }
         }
         let mut used = Vec::new();
         if self.quantised {

@@ -37,7 +37,7 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
     let mut lost = match Format::from_path(path) {
         Some(Format::Smf) => smf::write(path, model),
         Some(Format::Obj) => obj::write(path, model),
-        Some(Format::Gltf | Format::Glb) => glb::write(path, model, false),
+        Some(Format::Gltf | Format::Glb) => glb::write(path, model, false).map(|(_, lost)| lost),
         Some(Format::Ply) => ply::write(path, model, false),
         Some(Format::Stl) => stl::write(path, model),
         Some(Format::Off | Format::ThreeMf) | None => {
@@ -45,8 +45,11 @@ pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
             Err(WriteError::UnknownExtension { path: path.to_owned(), extension })
         }
     }?;
-    let has_images = matches!(Format::from_path(path), Some(Format::Obj | Format::Gltf | Format::Glb));
-    lost.extend(lost_images(model).filter(|_| !has_images).into_iter().chain(lost_in_all(model)));
+    let is_gltf = matches!(Format::from_path(path), Some(Format::Gltf | Format::Glb));
+    let has_images = is_gltf || Format::from_path(path) == Some(Format::Obj);
+    lost.extend(lost_images(model).filter(|_| !has_images));
+    lost.extend(lost_animations(model).filter(|_| !is_gltf));
+    lost.extend(lost_in_all(model));
     Ok(lost)
 }
 
@@ -74,7 +77,7 @@ pub fn write_ascii(path: &Path, model: &Model) -> Result<Vec<String>, WriteError
         return Err(WriteError::NotAscii { path: path.to_owned() });
     }
     let mut lost = ply::write(path, model, true)?;
-    lost.extend(lost_images(model).into_iter().chain(lost_in_all(model)));
+    lost.extend(lost_images(model).into_iter().chain(lost_animations(model)).chain(lost_in_all(model)));
     Ok(lost)
 }
 
@@ -107,22 +110,25 @@ pub fn write_quantised(path: &Path, model: &Model) -> Result<(f64, Vec<String>),
     if Format::from_path(path) != Some(Format::Glb) {
         return Err(WriteError::NotQuantised { path: path.to_owned() });
     }
-    let moved = model.parts.iter().map(|part| quantise::Grid::for_mesh(&part.mesh).largest_error()).fold(0.0, f64::max);
-    let mut lost = glb::write(path, model, true)?;
+    let (moved, mut lost) = glb::write(path, model, true)?;
     lost.extend(lost_in_all(model));
     Ok((moved, lost))
 }
 
-/// Warnings about what no format is written with: numbers beside the meshes, animations.
+/// Warnings about what no format is written with: numbers beside the meshes, highlights of specular-glossiness materials.
 fn lost_in_all(model: &Model) -> impl Iterator<Item = String> + use<> {
     let names: Vec<&str> = model.properties.iter().map(|property| property.name.as_str()).collect();
     let properties = (!names.is_empty()).then(|| format!("properties: {}", names.join(", ")));
-    let clips = model.animations.as_ref().map_or(0, |animations| animations.clips().len());
-    let animations = (clips > 0).then(|| format!("{clips} animations; the model is written in the pose of the file"));
     let is_pbr = |source: &&SourceMaterial| matches!(source, SourceMaterial::MetallicRoughness(pbr) if pbr.specular_glossiness.is_some());
     let glossy = model.materials.iter().filter(is_pbr).count();
     let glossy = (glossy > 0).then(|| format!("{glossy} materials lose their specular color and glossiness"));
-    properties.into_iter().chain(animations).chain(glossy)
+    properties.into_iter().chain(glossy)
+}
+
+/// The warning about animations, which glTF alone has.
+fn lost_animations(model: &Model) -> Option<String> {
+    let count = model.animations.as_ref()?.clips().len();
+    Some(format!("{count} animations; the model is written in the pose of the file"))
 }
 
 /// The warning about images that materials refer to.
