@@ -23,7 +23,8 @@ pub(crate) struct MorphTarget {
     pub(crate) tangents: Vec<Vec3>,
 }
 
-/// The joints that move each vertex: as many for each, and weights whose sum is 1.
+/// The joints that move each vertex: as many for each, and weights that are not negative, of which one at least is
+/// above 0. They count by their sum.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Influences {
     per_vertex: usize,
@@ -42,8 +43,7 @@ pub(crate) struct Moved {
 }
 
 impl Influences {
-    /// The influences of sets of four joints and weights a vertex. Weights are scaled to a sum of 1; a vertex without any
-    /// follows its first joint.
+    /// The influences of sets of four joints and weights a vertex. A vertex without any weight follows its first joint.
     pub(crate) fn new(sets: &[JointSet]) -> Self {
         let vertices = sets.iter().map(|(joints, _)| joints.len()).min().unwrap_or(0);
         let mut all = Self { per_vertex: 4 * sets.len(), ..Self::default() };
@@ -55,16 +55,21 @@ impl Influences {
                     .extend(weights[vertex].map(|weight| if weight.is_finite() { weight.max(0.0) } else { 0.0 }));
             }
             let weights = &mut all.weights[first..];
-            let sum: f64 = weights.iter().map(|weight| f64::from(*weight)).sum();
-            if sum > 0.0 {
-                for weight in weights {
-                    *weight = (f64::from(*weight) / sum) as f32;
-                }
-            } else {
+            if weights.iter().all(|weight| *weight == 0.0) {
                 weights[0] = 1.0;
             }
         }
         all
+    }
+
+    /// The sets that it was made of.
+    pub(crate) fn sets(&self) -> impl Iterator<Item = JointSet> {
+        let (joints, weights) = (self.joints.as_chunks().0, self.weights.as_chunks().0);
+        let sets = self.per_vertex / 4;
+        (0..sets).map(move |set| {
+            let joints = joints.iter().skip(set).step_by(sets).copied().collect();
+            (joints, weights.iter().skip(set).step_by(sets).copied().collect())
+        })
     }
 
     /// The greatest number of a joint that moves a vertex.
@@ -76,9 +81,12 @@ impl Influences {
     /// The matrix that moves a vertex.
     fn matrix(&self, vertex: usize, joints: &[DMat4]) -> DMat4 {
         let range = vertex * self.per_vertex..(vertex + 1) * self.per_vertex;
-        let each = self.joints[range.clone()].iter().zip(&self.weights[range]);
-        let used = each.filter(|(_, weight)| **weight > 0.0);
-        used.filter_map(|(joint, weight)| Some(*joints.get(usize::from(*joint))? * f64::from(*weight))).sum()
+        let weights = &self.weights[range.clone()];
+        let sum: f64 = weights.iter().map(|weight| f64::from(*weight)).sum();
+        // Scaled here, so that writers have the numbers of the file.
+        let scaled = weights.iter().map(|weight| f64::from((f64::from(*weight) / sum) as f32));
+        let used = self.joints[range].iter().zip(scaled).filter(|(_, weight)| *weight > 0.0);
+        used.filter_map(|(joint, weight)| Some(*joints.get(usize::from(*joint))? * weight)).sum()
     }
 }
 

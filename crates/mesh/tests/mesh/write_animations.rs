@@ -1,10 +1,13 @@
 //! Writers: animations of glTF are read as the same.
 
-use glam::{Mat4, Vec3};
-use halfway_mesh::{Animations, Model, Pose, load, write, write_quantised};
+use glam::{Mat4, Vec3, Vec4};
+use halfway_mesh::{
+    Animations, Mesh, Model, MtlMaterial, Normals, Pose, SourceMaterial, Subdivision, load, write, write_quantised,
+};
 
+use crate::common::gltf_file::GltfFile;
 use crate::common::{Folder, check_model};
-use crate::gltf_animation::{clip, turning_cube};
+use crate::gltf_animation::{clip, morph, skin, turning_cube};
 
 fn animations(model: &Model) -> &Animations {
     model.animations.as_deref().expect("animations")
@@ -145,7 +148,7 @@ fn animations_of_other_models_are_said_to_be_lost() {
     // Meshes of parts that move as a whole may change.
     let mut fine = model.clone();
     for part in &mut fine.parts {
-        part.mesh = part.mesh.subdivided(halfway_mesh::Subdivision::Midpoint, 1).unwrap();
+        part.mesh = part.mesh.subdivided(Subdivision::Midpoint, 1).unwrap();
     }
     let path = folder.path().join("model.glb");
     assert!(write(&path, &fine).unwrap().is_empty());
@@ -171,4 +174,122 @@ fn quantised_nodes_move_alike() {
             assert!(f64::from(p.distance(q)) < 2.0 * moved + 1e-6);
         }
     }
+}
+
+/// A model of these members with an animation of these channels.
+fn moving(file: &GltfFile, members: &str, channels: &[(usize, &str, usize, usize, &str)]) -> Model {
+    file.load(&format!("{members},\"animations\":[{}]", clip(channels))).unwrap()
+}
+
+#[test]
+fn morph_targets_come_back() {
+    for (interpolation, values) in [("STEP", 1), ("LINEAR", 1), ("CUBICSPLINE", 3)] {
+        for node in ["", ",\"weights\":[1,0.3]", ",\"weights\":[0,0]"] {
+            let mut file = GltfFile::default();
+            let members = morph(&mut file, node);
+            let input = file.floats("SCALAR", &[0.1, 1.0 / 3.0, 1.7]);
+            let numbers: Vec<f32> = (0..6 * values).map(|i| (i as f32 * 0.7).sin()).collect();
+            let channels = [(0, "weights", input, file.floats("SCALAR", &numbers), interpolation)];
+            check_comes_back(&moving(&file, &members, &channels));
+            // Without normals, which are made anew in each pose, also of what is written.
+            let bare = members.replace(",\"NORMAL\":1", "").replace(",\"NORMAL\":3", "");
+            let model = moving(&file, &bare, &channels);
+            assert_eq!(model.warnings.len(), 1);
+            check_comes_back(&model);
+        }
+    }
+}
+
+/// Several primitives on several instances, whose weights one channel moves; targets without positions and without any list
+/// that is read; tangents.
+#[test]
+fn one_channel_moves_the_weights_of_all_meshes_of_its_node() {
+    let mut file = GltfFile::default();
+    morph(&mut file, "");
+    let places = file.floats("VEC3", &[0.5, 0., 0., 0., 1., 1.]);
+    let tangents = file.floats("VEC4", &[1., 0., 0., 1.].repeat(3));
+    let (input, output) = (file.floats("SCALAR", &[0., 2.]), file.floats("SCALAR", &[0.1, 0., 0., 0.7, 0.9, 1.]));
+    let members = format!(
+        r#""nodes":[{{"name":"row","mesh":0,"extensions":{{"EXT_mesh_gpu_instancing":{{"attributes":{{"TRANSLATION":{places}}}}}}}}},
+        {{"mesh":0,"translation":[0,7,0]}}],
+        "meshes":[{{"primitives":[
+            {{"attributes":{{"POSITION":0,"NORMAL":1,"TANGENT":{tangents}}},
+            "targets":[{{"POSITION":2,"NORMAL":3}},{{"NORMAL":4}},{{"TANGENT":3,"POSITION":2}}]}},
+            {{"attributes":{{"POSITION":0}},"targets":[{{"POSITION":4}},{{"COLOR_0":4}},{{"NORMAL":3,"TANGENT":3}}]}}]}}]"#
+    );
+    let model =
+        moving(&file, &members, &[(0, "weights", input, output, "LINEAR"), (1, "weights", input, output, "STEP")]);
+    assert_eq!((model.parts.len(), animations(&model).pose(0, 1.0).parts.len()), (6, 6));
+    check_comes_back(&model);
+}
+
+/// Skins: with weights of any sum, in one set and in two; with morph targets; without normals; and far away.
+#[test]
+fn skins_come_back() {
+    for upper in ["", ",\"rotation\":[0.1,0.2,0.3,0.9]"] {
+        let mut file = GltfFile::default();
+        let members = skin(&mut file, upper);
+        let input = file.floats("SCALAR", &[0., 1.]);
+        let output = file.floats("VEC4", &[0., 0., 0., 1., 0.7, 0.1, 0., 0.7]);
+        let joints = file.bytes("VEC4", &[1, 0, 1, 0].repeat(6));
+        let weights: Vec<f32> = (0..24).map(|i| (i as f32 * 0.7).sin().abs()).collect();
+        let weights = file.floats("VEC4", &weights);
+        let lifts: Vec<f32> = (0..18).map(|i| (i as f32 * 0.7).sin()).collect();
+        let (lifts, zero_to_one) = (file.floats("VEC3", &lifts), file.floats("SCALAR", &[0., 1.]));
+        let two_sets = format!("\"WEIGHTS_0\":4,\"JOINTS_1\":{joints},\"WEIGHTS_1\":{weights}}}");
+        let morphed = format!("\"targets\":[{{\"POSITION\":{lifts}}}],\"attributes\"");
+        for (from, to) in [
+            ("\"WEIGHTS_0\":4}", "\"WEIGHTS_0\":4}".to_owned()),
+            ("\"WEIGHTS_0\":4}", two_sets),
+            ("\"attributes\"", morphed),
+            (",\"NORMAL\":1", String::new()),
+            ("\"children\":[2]", "\"children\":[2],\"translation\":[400000.25,5000000.5,0]".to_owned()),
+            (",\"inverseBindMatrices\":5", String::new()),
+        ] {
+            assert!(members.contains(from));
+            let mut channels = vec![(2, "rotation", input, output, "LINEAR")];
+            if to.contains("targets") {
+                channels.push((0, "weights", input, zero_to_one, "LINEAR"));
+            }
+            let model = moving(&file, &members.replace(from, &to), &channels);
+            assert_eq!(to.contains("translation"), model.origin.y > 4e6, "{}", model.origin);
+            check_comes_back(&model);
+        }
+        // A joint outside of the scene.
+        let model = moving(&file, &members.replace("[0,1]", "[0]"), &[(2, "rotation", input, output, "LINEAR")]);
+        check_comes_back(&model);
+    }
+}
+
+#[test]
+fn meshes_that_were_changed_do_not_bend() {
+    let mut file = GltfFile::default();
+    let members = skin(&mut file, "");
+    let (input, output) = (file.floats("SCALAR", &[0., 1.]), file.floats("VEC4", &[0., 0., 0., 1., 0.7, 0., 0., 0.7]));
+    let model = moving(&file, &members, &[(2, "rotation", input, output, "LINEAR")]);
+    let folder = Folder::new();
+    let path = folder.path().join("model.glb");
+    let changes: [fn(Mesh) -> Mesh; 3] = [
+        |mesh| mesh.subdivided(Subdivision::Midpoint, 1).unwrap(),
+        |mesh| mesh.with_normals(Normals::Face).0,
+        |mesh| mesh.with_colors(vec![Vec4::ONE; 6]).unwrap(),
+    ];
+    for change in changes {
+        let mut changed = model.clone();
+        changed.parts[0].mesh = change(changed.parts[0].mesh.clone());
+        let lost = write(&path, &changed).unwrap();
+        assert_eq!(lost, ["1 animations, which move the model as it was read; it is written in its pose"]);
+        assert!(load(&path).unwrap().parts[0].mesh == changed.parts[0].mesh);
+    }
+    // As it was, with another material.
+    let mut painted = model.clone();
+    painted.materials = vec![SourceMaterial::Mtl(MtlMaterial::default())];
+    painted.parts[0].material = Some(0);
+    write(&path, &painted).unwrap();
+    let read = load(&path).unwrap();
+    assert!(read.parts == painted.parts && poses(&read) == poses(&model));
+    // Meshes that bend are not rounded to integers.
+    let (moved, lost) = write_quantised(&path, &model).unwrap();
+    assert!(lost.is_empty() && moved < f64::MIN_POSITIVE, "{moved} {lost:?}");
+    check_equal(&load(&path).unwrap(), &model);
 }

@@ -12,6 +12,7 @@ use serde_json::{Map, Value, json};
 use super::file::{WriteError, replace};
 use super::images::{ImageFiles, ending};
 use super::quantise::{Grid, signed, unsigned};
+use crate::animation::Shape;
 use crate::files::Format;
 use crate::{
     AlphaMode, Bounds, GltfMaps, LinePart, Mesh, MetallicRoughness, Model, MtlMaterial, Part, SourceCamera,
@@ -104,6 +105,7 @@ struct Document {
     roots: Vec<usize>,
     lights: Vec<Value>,
     cameras: Vec<Value>,
+    skins: Vec<Value>,
     animations: Vec<Value>,
     /// The meshes already written, by the address of their data and by material.
     written: HashMap<(*const Vec3, Option<usize>), usize>,
@@ -115,7 +117,7 @@ impl Document {
     /// A model that does not move.
     fn still(&mut self, model: &Model) {
         for part in &model.parts {
-            let (mesh, part_from_mesh) = self.mesh(part);
+            let (mesh, part_from_mesh) = self.mesh(part, None);
             let world_from_mesh = match part_from_mesh {
                 Some(part_from_mesh) => (part.world_from_part.as_dmat4() * part_from_mesh).as_mat4(),
                 None => part.world_from_part,
@@ -146,24 +148,34 @@ impl Document {
         self.roots.push(node);
     }
 
-    /// The number of a part's mesh, and the transform that its integers take, if they are such.
-    fn mesh(&mut self, part: &Part) -> (Value, Option<DMat4>) {
-        let key = (part.mesh.positions().as_ptr(), part.material);
+    /// The number of a part's mesh, and the transform that its integers take, if they are such. A mesh whose vertices
+    /// move is written as it is before anything moves it, in floats, since displacements and skins count from it.
+    fn mesh(&mut self, part: &Part, shape: Option<&Shape>) -> (Value, Option<DMat4>) {
+        let base = shape.map_or(&part.mesh, |shape| &shape.mesh);
+        let key = (base.positions().as_ptr(), part.material);
         let mesh = if let Some(&mesh) = self.written.get(&key) {
             mesh
         } else {
-            let mesh = self.new_mesh(part);
+            let mesh = self.new_mesh(part, shape);
             self.written.insert(key, mesh);
             mesh
         };
-        (json!(mesh), self.quantised.then(|| Grid::for_mesh(&part.mesh).mesh_from_steps()))
+        let is_in_steps = self.quantised && shape.is_none();
+        (json!(mesh), is_in_steps.then(|| Grid::for_mesh(base).mesh_from_steps()))
     }
 
-    fn new_mesh(&mut self, part: &Part) -> usize {
-        let mesh = &part.mesh;
-        let attributes = if self.quantised { self.integers_of(mesh) } else { self.floats_of(mesh) };
+    fn new_mesh(&mut self, part: &Part, shape: Option<&Shape>) -> usize {
+        let mesh = shape.map_or(&part.mesh, |shape| &shape.mesh);
+        let attributes = match shape {
+            Some(shape) => self.attributes_of(shape),
+            None if self.quantised => self.integers_of(mesh),
+            None => self.floats_of(mesh),
+        };
         let indices = self.indices(mesh.indices(), mesh.positions().len());
         let mut primitive = json!({ "attributes": attributes, "indices": indices });
+        if let Some(shape) = shape.filter(|shape| !shape.targets.is_empty()) {
+            primitive["targets"] = self.targets(shape);
+        }
         if let Some(material) = part.material {
             primitive["material"] = json!(material);
         }
@@ -187,12 +199,8 @@ impl Document {
     /// A primitive of lines and one of points, as far as there are any.
     fn line_mesh(&mut self, part: &LinePart) -> usize {
         let lines = &part.lines;
-        let positions = self.floats("VEC3", lines.positions().iter().map(Vec3::to_array));
-        let all = Bounds::from_points(lines.positions().iter().copied()).unwrap_or(lines.bounds());
-        self.accessors[positions]["min"] = json!(all.min.to_array());
-        self.accessors[positions]["max"] = json!(all.max.to_array());
         let mut attributes = Map::new();
-        attributes.insert("POSITION".to_owned(), json!(positions));
+        attributes.insert("POSITION".to_owned(), json!(self.positions(lines.positions())));
         if let Some(normals) = lines.normals() {
             attributes.insert("NORMAL".to_owned(), json!(self.floats("VEC3", normals.iter().map(Vec3::to_array))));
         }
@@ -215,13 +223,8 @@ impl Document {
     }
 
     fn floats_of(&mut self, mesh: &Mesh) -> Map<String, Value> {
-        // Of all vertices, used or not, as the format asks.
-        let bounds = Bounds::from_points(mesh.positions().iter().copied()).unwrap_or(mesh.bounds());
-        let positions = self.floats("VEC3", mesh.positions().iter().map(Vec3::to_array));
-        self.accessors[positions]["min"] = json!(bounds.min.to_array());
-        self.accessors[positions]["max"] = json!(bounds.max.to_array());
         let mut attributes = Map::new();
-        attributes.insert("POSITION".to_owned(), json!(positions));
+        attributes.insert("POSITION".to_owned(), json!(self.positions(mesh.positions())));
         let normals = self.floats("VEC3", mesh.normals().iter().map(Vec3::to_array));
         attributes.insert("NORMAL".to_owned(), json!(normals));
         for (set, uvs) in (0..2).filter_map(|set| Some((set, mesh.uv_set(set)?))) {
@@ -234,6 +237,16 @@ impl Document {
             attributes.insert("TANGENT".to_owned(), json!(self.floats("VEC4", tangents.iter().map(Vec4::to_array))));
         }
         attributes
+    }
+
+    /// Positions with the least and the greatest of all, used or not, as the format asks.
+    fn positions(&mut self, positions: &[Vec3]) -> usize {
+        let accessor = self.floats("VEC3", positions.iter().map(Vec3::to_array));
+        if let Some(bounds) = Bounds::from_points(positions.iter().copied()) {
+            self.accessors[accessor]["min"] = json!(bounds.min.to_array());
+            self.accessors[accessor]["max"] = json!(bounds.max.to_array());
+        }
+        accessor
     }
 
     fn integers_of(&mut self, mesh: &Mesh) -> Map<String, Value> {
@@ -415,7 +428,7 @@ impl Document {
         if !materials.is_empty() {
             root["materials"] = json!(materials);
         }
-        for (key, values) in [("cameras", &self.cameras), ("animations", &self.animations)] {
+        for (key, values) in [("cameras", &self.cameras), ("skins", &self.skins), ("animations", &self.animations)] {
             if !values.is_empty() {
                 root[key] = json!(values);
             }
