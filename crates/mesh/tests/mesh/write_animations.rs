@@ -141,7 +141,7 @@ fn animations_of_other_models_are_said_to_be_lost() {
         change(&mut changed);
         let path = folder.path().join("model.glb");
         let lost = write(&path, &changed).unwrap();
-        assert_eq!(lost, ["1 animations, which move the model as it was read; it is written in its pose"], "{i}");
+        assert_eq!(lost, ["1 animations, which no longer fit the model; it is written as it stands"], "{i}");
         let read = load(&path).unwrap();
         assert!(read.animations.is_none() && read.parts.len() == changed.parts.len(), "{i}");
     }
@@ -278,7 +278,7 @@ fn meshes_that_were_changed_do_not_bend() {
         let mut changed = model.clone();
         changed.parts[0].mesh = change(changed.parts[0].mesh.clone());
         let lost = write(&path, &changed).unwrap();
-        assert_eq!(lost, ["1 animations, which move the model as it was read; it is written in its pose"]);
+        assert_eq!(lost, ["1 animations, which no longer fit the model; it is written as it stands"]);
         assert!(load(&path).unwrap().parts[0].mesh == changed.parts[0].mesh);
     }
     // As it was, with another material.

@@ -41,7 +41,7 @@ pub(super) fn write(path: &Path, model: &Model, quantised: bool) -> Result<(f64,
         animations => {
             lost.extend(animations.as_ref().map(|animations| {
                 let count = animations.clips.len();
-                format!("{count} animations, which move the model as it was read; it is written in its pose")
+                format!("{count} animations, which no longer fit the model; it is written as it stands")
             }));
             file.still(model);
         }

@@ -28,6 +28,9 @@ use crate::{Model, SourceMaterial};
 /// digits of the world, in PLY as `double`; STL rounds them. Texture coordinates of SMF and OBJ run upward, which costs those below 1e-9 their last
 /// bits. Both get vertex colours as sRGB. See [`load`](crate::load) for an example.
 ///
+/// glTF keeps [`Model::animations`], as long as parts, lines, lights and cameras stand as they were read, and meshes that
+/// skins or morph targets move are those that were read; other meshes and all materials may have changed.
+///
 /// # Errors
 /// An unknown extension, a model without parts, more than the format can count, or an error of the system.
 pub fn write(path: &Path, model: &Model) -> Result<Vec<String>, WriteError> {
@@ -85,7 +88,8 @@ pub fn write_ascii(path: &Path, model: &Model) -> Result<Vec<String>, WriteError
 /// 40 % smaller.
 ///
 /// Positions are rounded to 65,536 steps along the longest edge of each mesh's box, normals, tangents and colours to
-/// 32,768 or more, texture coordinates to 65,536 where all of a mesh lie from 0 to 1. Lines and points stay as they are. Returns the largest distance that
+/// 32,768 or more, texture coordinates to 65,536 where all of a mesh lie from 0 to 1. Lines and points stay as they are,
+/// and so do meshes that skins or morph targets move. Returns the largest distance that
 /// a position moved, in model space, and a sentence for each thing that the format cannot hold.
 ///
 /// ```
