@@ -9,6 +9,8 @@ use std::path::Path;
 use glam::{Vec2, Vec3};
 use halfway_mesh::{Bounds, Mesh, Teapot};
 
+#[path = "make_assets/fish.rs"]
+mod fish;
 #[path = "make_assets/textured.rs"]
 mod textured;
 
@@ -22,7 +24,7 @@ fn main() -> std::io::Result<()> {
 }
 
 /// Every file and its content.
-pub fn assets() -> [(&'static str, Vec<u8>); 10] {
+pub fn assets() -> [(&'static str, Vec<u8>); 11] {
     [
         ("cube.smf", CUBE.into()),
         ("teapot.mtl", BRASS.into()),
@@ -33,6 +35,7 @@ pub fn assets() -> [(&'static str, Vec<u8>); 10] {
         ("crate.png", textured::crate_color()),
         ("crate_height.png", textured::crate_height()),
         ("ball.glb", textured::ball_glb()),
+        ("fish.glb", fish::fish_glb()),
         ("helix.obj", helix_obj().into_bytes()),
     ]
 }

@@ -96,6 +96,28 @@ fn convert_takes_the_steps_that_are_asked_for() {
 }
 
 #[test]
+fn converted_animations_are_drawn_alike() {
+    let folder = folder("convert_animated");
+    let fish = asset("assets/fish.glb");
+    assert!(!succeeds(&folder, &["convert", &fish, "fish.gltf"]).contains("lost"));
+    assert!(!succeeds(&folder, &["convert", "fish.gltf", "again.glb"]).contains("lost"));
+    let mut pictures = Vec::new();
+    for time in ["0.3", "1.25", "2.9"] {
+        let [first, gltf, glb] = [&fish[..], "fish.gltf", "again.glb"].map(|model| {
+            let arguments = ["render", model, "--camera", "diver", "--time", time, "--size", "96x54", "-o", "fish.png"];
+            succeeds(&folder, &arguments);
+            fs::read(folder.join("fish.png")).expect("the picture was written")
+        });
+        assert!(first == gltf && first == glb, "{time}");
+        assert!(!pictures.contains(&first), "the fish moves");
+        pictures.push(first);
+    }
+    let said = succeeds(&folder, &["convert", &fish, "fine.glb", "--subdivide", "midpoint=1"]);
+    let lost = "lost       1 animations, which no longer fit the model; it is written as it stands";
+    assert!(said.contains(lost), "{said}");
+}
+
+#[test]
 fn info_prints_cameras_and_levels() {
     let folder = folder("info_more");
     let gltf = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],

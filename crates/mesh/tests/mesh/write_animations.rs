@@ -69,6 +69,12 @@ fn moving_nodes_come_back() {
     check_comes_back(&far);
 }
 
+#[test]
+fn the_fish_comes_back() {
+    let fish = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/fish.glb");
+    check_comes_back(&load(&fish).unwrap());
+}
+
 /// Every interpolation of every path, with uneven numbers.
 #[test]
 fn all_interpolations_come_back() {
