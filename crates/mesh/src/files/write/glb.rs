@@ -169,7 +169,7 @@ impl Document {
         let attributes = match shape {
             Some(shape) => self.attributes_of(shape),
             None if self.quantised => self.integers_of(mesh),
-            None => self.floats_of(mesh),
+            None => self.floats_of(mesh, true),
         };
         let indices = self.indices(mesh.indices(), mesh.positions().len());
         let mut primitive = json!({ "attributes": attributes, "indices": indices });
@@ -222,11 +222,14 @@ impl Document {
         self.meshes.len() - 1
     }
 
-    fn floats_of(&mut self, mesh: &Mesh) -> Map<String, Value> {
+    /// The attributes of a mesh; without its normals where those are made anew when it is read.
+    fn floats_of(&mut self, mesh: &Mesh, has_normals: bool) -> Map<String, Value> {
         let mut attributes = Map::new();
         attributes.insert("POSITION".to_owned(), json!(self.positions(mesh.positions())));
-        let normals = self.floats("VEC3", mesh.normals().iter().map(Vec3::to_array));
-        attributes.insert("NORMAL".to_owned(), json!(normals));
+        if has_normals {
+            let normals = self.floats("VEC3", mesh.normals().iter().map(Vec3::to_array));
+            attributes.insert("NORMAL".to_owned(), json!(normals));
+        }
         for (set, uvs) in (0..2).filter_map(|set| Some((set, mesh.uv_set(set)?))) {
             attributes.insert(format!("TEXCOORD_{set}"), json!(self.floats("VEC2", uvs.iter().map(Vec2::to_array))));
         }

@@ -129,10 +129,7 @@ impl Document {
 
     /// The attributes of a mesh whose vertices move, with their joints and weights.
     pub(super) fn attributes_of(&mut self, shape: &Shape) -> Map<String, Value> {
-        let mut attributes = self.floats_of(&shape.mesh);
-        if !shape.has_normals {
-            attributes.remove("NORMAL");
-        }
+        let mut attributes = self.floats_of(&shape.mesh, shape.has_normals);
         for (set, (joints, weights)) in shape.influences.iter().flat_map(Influences::sets).enumerate() {
             let joints = self.shorts(UNSIGNED_SHORT, "VEC4", joints.into_iter(), false);
             attributes.insert(format!("JOINTS_{set}"), json!(joints));
