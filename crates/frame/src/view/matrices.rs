@@ -18,9 +18,16 @@ pub struct ModelView {
 }
 
 impl ModelView {
-    /// Of an object with this transform, as the view with this epoch sees it.
-    pub(crate) fn of_object(eye_from_model: &DAffine3, epoch: u64, transform: &GlobalTransform) -> Self {
-        Self { made_from: Some((epoch, transform.affine())), ..Self::new(eye_from_model) }
+    /// Of an object with this transform, as the view with this epoch sees it; and its normal matrix.
+    pub(crate) fn of_object(
+        eye_from_model: &DAffine3,
+        lengths: Lengths,
+        epoch: u64,
+        transform: &GlobalTransform,
+    ) -> (Self, NormalMatrix) {
+        let made_from = Some((epoch, transform.affine()));
+        let model_view = Self { made_from, ..Self::with_lengths(eye_from_model, lengths) };
+        (model_view, NormalMatrix(signed_cofactors(&eye_from_model.matrix3, model_view.mirrored)))
     }
 
     /// Whether it is what [`of_object`](Self::of_object) makes of these.
@@ -28,12 +35,12 @@ impl ModelView {
         self.made_from == Some((epoch, transform.affine()))
     }
 
-    pub(crate) fn new(eye_from_model: &DAffine3) -> Self {
+    fn with_lengths(eye_from_model: &DAffine3, lengths: Lengths) -> Self {
         let DAffine3 { matrix3: m, translation } = eye_from_model;
         Self {
             eye_from_model: Affine3A::from_mat3_translation(m.as_mat3(), translation.as_vec3()),
-            mirrored: is_mirror(m),
-            largest_scale: largest_scale(m) as f32,
+            mirrored: lengths.is_mirror(m),
+            largest_scale: lengths.largest_scale(m) as f32,
             keeps_angles: keeps_angles(m),
             made_from: None,
         }
@@ -66,20 +73,41 @@ pub(super) fn is_flat_twice(m: &DMat3) -> bool {
 pub(super) fn compose(eye_from_world: &DAffine3, world_from_model: &GlobalTransform) -> DAffine3 {
     let affine = world_from_model.affine();
     let world_from_model = DAffine3 {
-        matrix3: DMat3::from_cols_array(&affine.matrix3.to_cols_array().map(f64::from)),
-        translation: DVec3::from_array(affine.translation.to_array().map(f64::from)),
+        matrix3: DMat3::from_cols(
+            affine.matrix3.x_axis.as_dvec3(),
+            affine.matrix3.y_axis.as_dvec3(),
+            affine.matrix3.z_axis.as_dvec3(),
+        ),
+        translation: affine.translation.as_dvec3(),
     };
     *eye_from_world * world_from_model
 }
 
-/// An upper bound of how much the matrix stretches a length: the Frobenius norm, or the exact factor
-/// where the columns are orthogonal, as they are without shear.
-pub(super) fn largest_scale(m: &DMat3) -> f64 {
-    let lengths = [m.x_axis, m.y_axis, m.z_axis].map(DVec3::length);
-    let [x, y, z] = lengths;
-    let largest = x.max(y).max(z);
-    let skew = m.x_axis.dot(m.y_axis).abs().max(m.y_axis.dot(m.z_axis).abs()).max(m.z_axis.dot(m.x_axis).abs());
-    if skew <= 1e-6 * largest * largest { largest * (1.0 + 2e-6) } else { (x * x + y * y + z * z).sqrt() }
+/// The lengths of the columns of a matrix.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lengths([f64; 3]);
+
+impl Lengths {
+    pub(super) fn new(m: &DMat3) -> Self {
+        Self([m.x_axis.length(), m.y_axis.length(), m.z_axis.length()])
+    }
+
+    /// An upper bound of how much the matrix stretches a length: the Frobenius norm, or the exact factor
+    /// where the columns are orthogonal, as they are without shear.
+    pub(super) fn largest_scale(self, m: &DMat3) -> f64 {
+        let Self([x, y, z]) = self;
+        let largest = x.max(y).max(z);
+        let skew = m.x_axis.dot(m.y_axis).abs().max(m.y_axis.dot(m.z_axis).abs()).max(m.z_axis.dot(m.x_axis).abs());
+        if skew <= 1e-6 * largest * largest { largest * (1.0 + 2e-6) } else { (x * x + y * y + z * z).sqrt() }
+    }
+
+    /// Whether the matrix turns windings over: its determinant is negative. Transforms are kept in f32, so a determinant
+    /// of unit columns within 8 ε of 0 is a rounding error; such a matrix flattens, and counts as not mirroring.
+    fn is_mirror(self, m: &DMat3) -> bool {
+        let Self([x, y, z]) = self;
+        // Numbers of f32, so that no product of three leaves f64.
+        m.determinant() < -8.0 * f64::from(f32::EPSILON) * (x * y * z)
+    }
 }
 
 /// Whether the columns are equally long and at right angles, up to the rounding of transforms in f32.
@@ -91,23 +119,22 @@ fn keeps_angles(m: &DMat3) -> bool {
     alike(y.length_squared()) && alike(z.length_squared()) && right(x.dot(y)) && right(y.dot(z)) && right(z.dot(x))
 }
 
-/// Whether the matrix turns windings over: its determinant is negative. Transforms are kept in f32, so a determinant of
-/// unit columns within 8 ε of 0 is a rounding error; such a matrix flattens, and counts as not mirroring.
-fn is_mirror(m: &DMat3) -> bool {
-    let unit =
-        DMat3::from_cols(m.x_axis.normalize_or_zero(), m.y_axis.normalize_or_zero(), m.z_axis.normalize_or_zero());
-    unit.determinant() < -8.0 * f64::from(f32::EPSILON)
-}
-
 /// sign(det M) · cof(M), divided by its largest element so that f32 neither under- nor overflows. The sign of a matrix
 /// that flattens is +.
 pub fn normal_matrix(m: &DMat3) -> Mat3 {
-    let largest = |m: &DMat3| m.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
+    signed_cofactors(m, Lengths::new(m).is_mirror(m))
+}
+
+fn signed_cofactors(m: &DMat3, mirrored: bool) -> Mat3 {
+    let largest = |m: &DMat3| {
+        let DVec3 { x, y, z } = m.x_axis.abs().max(m.y_axis.abs()).max(m.z_axis.abs());
+        x.max(y).max(z)
+    };
     let size = largest(m);
     if size == 0.0 || !size.is_finite() {
         return Mat3::ZERO;
     }
-    let sign = if is_mirror(m) { -1.0 } else { 1.0 };
+    let sign = if mirrored { -1.0 } else { 1.0 };
     let m = *m * (1.0 / size);
     let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
     let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));

@@ -4,7 +4,7 @@ use crate::error::{RenderError, bad_transform, label};
 use crate::report::FrameReport;
 use crate::view::camera::View;
 use crate::view::looks::{Look, Looks, any_newer};
-use crate::view::matrices::{ModelView, NormalMatrix, compose, is_flat_twice, largest_scale, normal_matrix};
+use crate::view::matrices::{Lengths, ModelView, NormalMatrix, compose, is_flat_twice};
 use bevy_ecs::change_detection::{ContiguousComponentTicksMut, ContiguousMut, ContiguousRef, Tick};
 use bevy_ecs::prelude::*;
 use bevy_transform::components::GlobalTransform;
@@ -369,7 +369,8 @@ impl Rows<'_> {
             }
             let bounds = mesh.bounds();
             let center = eye_from_model.transform_point3(bounds.center().as_dvec3());
-            let radius = f64::from(bounds.radius()) * largest_scale(&eye_from_model.matrix3);
+            let lengths = Lengths::new(&eye_from_model.matrix3);
+            let radius = f64::from(bounds.radius()) * lengths.largest_scale(&eye_from_model.matrix3);
             if !view.lens.sees(center.as_vec3().to_array(), radius as f32) {
                 continue;
             }
@@ -378,8 +379,9 @@ impl Rows<'_> {
             seen.depths = [f64::min(least, -center.z - radius), f64::max(largest, -center.z + radius)];
             seen.rows.push(row as u32);
             if !self.model_views.values[row].is_of(seen_in.epoch, transform) {
-                self.model_views.set(row, ModelView::of_object(&eye_from_model, seen_in.epoch, transform));
-                self.normal_matrices.set(row, NormalMatrix(normal_matrix(&eye_from_model.matrix3)));
+                let made = ModelView::of_object(&eye_from_model, lengths, seen_in.epoch, transform);
+                self.model_views.set(row, made.0);
+                self.normal_matrices.set(row, made.1);
                 seen.matrices += 1;
             }
         }
