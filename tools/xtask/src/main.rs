@@ -35,6 +35,7 @@ enum Chore {
     Chart(chores::chart::Options),
     Fuzz(chores::fuzz::Options),
     InstallDesktop(chores::install_desktop::Options),
+    Instructions(chores::instructions::Options),
     Readme(chores::readme::Options),
     Screen(chores::screen::Options),
     /// Run a scene in which everything changes for 100,000 frames, and fail where memory grows
@@ -66,6 +67,7 @@ impl Chore {
             Self::Chart(options) => chores::chart::run(&options),
             Self::Fuzz(options) => chores::fuzz::run(&options),
             Self::InstallDesktop(options) => chores::install_desktop::run(&options),
+            Self::Instructions(options) => chores::instructions::run(&options),
             Self::Readme(options) => chores::readme::run(&options),
             Self::Screen(options) => chores::screen::run(&options),
             Self::Soak(arguments) => chores::program::soak(&arguments),
@@ -107,6 +109,7 @@ mod tests {
             "chart --quick",
             "chart --filters",
             "fuzz smf --seconds 60 obj --no-install",
+            "instructions --keep",
             "readme --list",
             "screen cargo test --release --test window",
             "soak",

@@ -93,6 +93,10 @@ pub(crate) const ARM_LINKER: Need =
 pub(crate) const ARM_EMULATOR: Need =
     program("QEMU, which runs programs for ARM", &["qemu-aarch64-static"], &["qemu-user-static"]);
 
+/// The counter of a processor's instructions.
+pub(crate) const CALLGRIND: Need =
+    program("valgrind, whose callgrind counts instructions", &["valgrind"], &["valgrind"]);
+
 /// Python, which makes environments of its own.
 pub(crate) const PYTHON: Need =
     Need { name: "Python with venv", programs: &["python3"], packages: &["python3", "python3-venv"], ..NOTHING };

@@ -11,6 +11,7 @@ pub(crate) mod demo;
 pub(crate) mod docs;
 pub(crate) mod fuzz;
 pub(crate) mod install_desktop;
+pub(crate) mod instructions;
 pub(crate) mod program;
 pub(crate) mod readme;
 pub(crate) mod screen;

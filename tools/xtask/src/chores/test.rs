@@ -6,6 +6,7 @@ use std::time::Instant;
 use clap::Args;
 
 use super::adapters::{self, CHOICE, ON_THE_CPU, SHARE, units_about_drivers, without_drivers};
+use super::instructions;
 use super::wheel;
 use crate::cargo::{cargo, duration, root, step};
 use crate::checks::metadata::test_programs;
@@ -20,8 +21,8 @@ use crate::tally::{Tally, counted};
 ///
 /// --all then also runs the tests of the window, of the charts' page in a browser and of graphics drivers, and those of
 /// pictures on each driver that a bare Debian can have. Missing requirements (Vulkan and OpenGL drivers, the virtual
-/// screen Xvfb, the window manager openbox, the Wayland compositor weston, the browser chromium) are installed by
-/// apt-get where it may be used; otherwise the packages are named.
+/// screen Xvfb, the window manager openbox, the Wayland compositor weston, the browser chromium, valgrind) are installed
+/// by apt-get where it may be used; otherwise the packages are named.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Options {
@@ -54,6 +55,7 @@ not run:
    the page of the charts, in a browser
    shaders against their twins in Rust, pipelines, devices that are lost: on a graphics driver
    the same pictures on Vulkan, OpenGL and SwiftShader
+   the instructions that frames take, against those that are kept
 These run, too, and what they need is installed, by
 
     cargo xtask test --all";
@@ -65,7 +67,8 @@ pub(crate) fn run(options: &Options) -> Result {
     }
     by_the_cpu()?;
     if options.all {
-        return on_drivers(options);
+        on_drivers(options)?;
+        return instructions::where_counted(options.setup);
     }
     eprintln!("\n{NOT_RUN}");
     Ok(())
