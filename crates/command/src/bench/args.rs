@@ -13,6 +13,7 @@ use crate::adapters::AdapterArgs;
 use crate::drawing::SizeArgs;
 use crate::failure::Failure;
 use crate::scenery::BenchmarkScene;
+use crate::scenery::growth::Growing;
 use crate::tolerance::ToleranceArgs;
 
 #[derive(Args, Debug)]
@@ -28,8 +29,9 @@ pub(crate) struct BenchArgs {
     /// s6: one scan of 1,000,000 triangles with noise, 3 lights, 1280 × 720;
     /// features: the cost of each feature of lighting once a vertex and once a pixel, beside one directional light;
     /// lights: the CPU's cost of a light for each patch that it touches, and of one of 20,000 that touches nothing;
+    /// growth: own CPU, drawing and memory over objects, lights, triangles and pixels, up to a million and more;
     /// load: the parts of the time from a model file to its first picture
-    #[arg(value_name = "s1|s1x16|s2|s3|s4|s5|s6|features|lights|load|SCENE|MODEL", verbatim_doc_comment)]
+    #[arg(value_name = "s1|s1x16|s2|s3|s4|s5|s6|features|lights|growth|load|SCENE|MODEL", verbatim_doc_comment)]
     pub(super) subject: OsString,
     /// The model file of `load`
     #[arg(value_name = "FILE", required_if_eq("subject", "load"))]
@@ -52,6 +54,12 @@ pub(crate) struct BenchArgs {
     /// Print JSON instead of a table: all figures
     #[arg(long)]
     pub(super) json: bool,
+    /// Of `growth`: also write its chart, an SVG
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// Measure one point of `growth` and print its values, for the table, which takes each from a process of its own
+    #[arg(long, hide = true)]
+    pub(super) point: Option<Growing>,
     /// Draw one frame of one shading and print when it was finished and the peak memory, for the table's last columns,
     /// each from a process of its own
     #[arg(long, value_enum, hide = true)]
@@ -63,6 +71,7 @@ pub(super) enum Subject {
     Scene(BenchmarkScene),
     Features,
     Lights,
+    Growth,
     /// The loading of a model.
     Load(PathBuf),
     /// A scene file or a model.
@@ -74,12 +83,21 @@ impl BenchArgs {
         match self.subject.to_str().unwrap_or_default() {
             "features" => Subject::Features,
             "lights" => Subject::Lights,
+            "growth" => Subject::Growth,
             "load" => Subject::Load(self.file.clone().unwrap_or_default()),
             name => match BenchmarkScene::from_str(name, false) {
                 Ok(scene) => Subject::Scene(scene),
                 Err(_) => Subject::File(PathBuf::from(&self.subject)),
             },
         }
+    }
+
+    /// Refuses a chart of anything but growth.
+    pub(super) fn expect_chart_of_growth(&self) -> Result<(), Failure> {
+        if self.output.is_some() && !matches!(self.subject(), Subject::Growth) {
+            return Err("--output: expected the subject growth, of which it is the chart".to_owned().into());
+        }
+        Ok(())
     }
 
     /// Refuses the options that apply to scenes only.

@@ -44,6 +44,11 @@ impl CpuTimes {
         self.each_ms(|times| times.total().saturating_sub(times.duration(RenderSet::Draw)))
     }
 
+    /// The set that draws, frame by frame.
+    pub(super) fn draw_of_each_ms(&self) -> Vec<f64> {
+        self.each_ms(|times| times.duration(RenderSet::Draw))
+    }
+
     fn median_ms(&self, of: impl Fn(&SetTimes) -> Duration) -> f64 {
         median(&self.each_ms(of))
     }

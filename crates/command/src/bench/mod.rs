@@ -6,6 +6,7 @@ mod args;
 mod cpu;
 mod facts;
 mod features;
+mod growth;
 mod lights;
 mod load;
 mod own_process;
@@ -20,9 +21,11 @@ use app::Timed;
 use args::Subject;
 
 pub(crate) fn run(args: &BenchArgs) -> Result<(), Failure> {
+    args.expect_chart_of_growth()?;
     let timed = match args.subject() {
         Subject::Features => return features::run(args),
         Subject::Lights => return lights::run(args),
+        Subject::Growth => return growth::run(args),
         Subject::Load(file) => return load::run(args, &file),
         Subject::Scene(BenchmarkScene::S2) => Timed::Made(BenchmarkScene::S2),
         _ if args.octahedra => {

@@ -18,6 +18,7 @@
 
 pub(crate) mod features;
 mod gallery;
+pub(crate) mod growth;
 pub(crate) mod many_lights;
 
 use std::f32::consts::TAU;

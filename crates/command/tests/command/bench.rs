@@ -48,7 +48,8 @@ fn a_benchmark_prints_a_row_for_each_shading() {
         let lists = (&row["report"]["lights_assigned"], &row["report"]["left_out"]);
         assert_eq!(lists, (&0.into(), &0.0.into()), "{row}");
         let sets = row["cpu_ms"].as_object().expect("the time of each set");
-        assert!(sets.len() == 10 && sets.values().all(|ms| ms.as_f64().is_some_and(|ms| ms >= 0.0)), "{row}");
+        // The eight sets of a frame, and their total.
+        assert!(sets.len() == 9 && sets.values().all(|ms| ms.as_f64().is_some_and(|ms| ms >= 0.0)), "{row}");
         assert!(row["cpu_ms"]["total"].as_f64() <= row["frame_ms_spread"]["max"].as_f64(), "{row}");
     }
     let table = succeeds(&folder, &["bench", "s4", "--rounds", "1"]);
@@ -88,6 +89,24 @@ fn any_scene_or_model_is_timed() {
     // The scene's own size.
     let table = succeeds(&folder, &["bench", &asset("examples/scenes/brass_teapot.json"), "--rounds", "1"]);
     assert!(table.contains("scene: brass_teapot.json, ") && table.contains("| constant | "), "{table}");
+}
+
+#[test]
+fn a_point_of_growth_is_measured_in_a_process_of_its_own() {
+    let folder = folder("bench_growth");
+    for (point, own_is_little) in
+        [("objects-standing:1024", true), ("objects-turning:1024", false), ("lights:64", false)]
+    {
+        let values = succeeds(&folder, &["bench", "growth", "--adapter", "cpu", "--rounds", "2", "--point", point]);
+        let values: Vec<f64> = values.split_whitespace().map(|word| word.parse().expect("a number")).collect();
+        let [own, draw, peak] = values[..] else { panic!("{point}: {values:?}") };
+        assert!(own > 0.0 && draw > 0.0 && peak > 1.0, "{point}: {values:?}");
+        // Nothing is put together anew.
+        assert!(!own_is_little || own < draw, "{point}: {values:?}");
+    }
+    let output = halfway(&folder, &["bench", "s4", "-o", "growth.svg"]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && error.contains("--output"), "{error}");
 }
 
 /// A count of each row of a scene file or model whose frames are timed, so many rounds of them.
