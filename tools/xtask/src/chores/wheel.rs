@@ -51,9 +51,9 @@ const PEERS: [&str; 14] = [
     "ipykernel",
     "ipywidgets",
 ];
-/// The most bytes of a wheel. The aim is 5 MB; readers of six more kinds of images, of 3MF and of glTF that moves took it to
-/// 5.43 MB. Optimised for size, all that reads comes to 5.21 MB, and takes longer.
-const MOST: u64 = 5_450_000;
+/// The most bytes of a wheel. The aim is 5 MB. It has 5.12, since what only passes values on is optimised for size; with
+/// bevy's ECS so, too, it had 5.03.
+const MOST: u64 = 5_150_000;
 
 const NEEDS: [Need; 1] = [PYTHON];
 
