@@ -1,4 +1,4 @@
-//! What follows from the looks of a frame's objects: found once a look, whatever the number of objects with it.
+//! Looks of a frame: all that follows from the components of its objects, found once for those that are equal.
 
 use crate::batch::backend::Backend;
 use crate::batch::ignored::log_ignored;
@@ -9,7 +9,7 @@ use crate::batch::table::{ObjectTable, RunState};
 use crate::geometry::meshes::{Form, shades_pixels_alone};
 use crate::geometry::patches::{DetailDemand, Patches};
 use crate::geometry::shape::PatchNormals;
-use crate::lights::lists::Listing;
+use crate::lights::lists::{Listing, Reflector};
 use crate::view::matrices::{ModelView, NormalMatrix};
 use bevy_math::Vec3;
 use halfway_asset::AssetId;
@@ -35,8 +35,11 @@ pub(crate) struct LitLook {
     pub(super) triangles: u64,
     pub(super) faces: Faces,
     pub(super) demand: DetailDemand,
-    /// How its lights are selected, where there are lists.
-    pub(super) listing: Listing,
+    reflector: Reflector,
+    /// The steps by which lights may be left out.
+    steps: f64,
+    /// How its lights are selected, once there are lists.
+    listing: Option<Listing>,
     /// Images may turn its normals anywhere.
     has_relief: bool,
 }
@@ -75,9 +78,6 @@ impl LitLook {
         let circumstances =
             Circumstances { terms, blend: paint.blend, mirrored: false, opposite_normals: geometry.opposite_normals };
         let key = reflecting.key(look, circumstances, shared);
-        let reflector = reflecting.reflector(key.terms);
-        // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
-        let ambient = if key.is_painted() { Vec3::ZERO } else { shared.lights.ambient };
         let form = object.form();
         Ok(Some(Self {
             key,
@@ -94,7 +94,9 @@ impl LitLook {
                 lit: key.is_lit() || key.surrounded,
                 has_images: key.is_mapped(),
             },
-            listing: reflector.listing(ambient, shared.eye, shared.encoding, f64::from(tolerance.steps)),
+            reflector: reflecting.reflector(key.terms),
+            steps: f64::from(tolerance.steps),
+            listing: None,
             has_relief: paint.has_relief() && !form.flat,
         }))
     }
@@ -123,6 +125,16 @@ impl LitLook {
             way.newest = Some((indices, states));
         }
         way.newest.as_ref().and_then(|(_, states)| states.get(..passes.count())).unwrap_or_default()
+    }
+
+    /// How its lights are selected.
+    pub(super) fn listing(&mut self, shared: Shared) -> &Listing {
+        let Self { key, reflector, steps, .. } = self;
+        self.listing.get_or_insert_with(|| {
+            // A color may be black: then there is no ambient light that could hide what is left out. None is above 1.
+            let ambient = if key.is_painted() { Vec3::ZERO } else { shared.lights.ambient };
+            reflector.listing(ambient, shared.eye, shared.encoding, *steps)
+        })
     }
 
     /// A patch in eye space.

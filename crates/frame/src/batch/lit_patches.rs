@@ -16,7 +16,7 @@ use crate::lights::slots::Lists;
 use crate::report::FrameReport;
 use crate::values::{FrameValues, PixelValues};
 use crate::view::camera::View;
-use crate::view::looks::{Look, Looks};
+use crate::view::looks::{Look, LookBits, Looks};
 use crate::view::matrices::{ModelView, NormalMatrix};
 use crate::view::select::Selected;
 use bevy_ecs::component::Mutable;
@@ -169,7 +169,8 @@ impl LitPatches {
         let mut looks = std::mem::take(&mut self.looks);
         for &entity in shown.visible() {
             let Ok((mut number, model_view, normal_matrix)) = places.get_mut(entity) else { continue };
-            if let Some(look) = numbers.known(*number).and_then(|known| looks.of_number(known)) {
+            let known = numbers.known(*number);
+            if let Some(look) = known.and_then(|known| looks.of_number(known)) {
                 self.add(look, (model_view, normal_matrix), shared, backend);
                 continue;
             }
@@ -178,8 +179,9 @@ impl LitPatches {
             match LitLook::new(&object, shown, shared, &mut self.table) {
                 Ok(Some(mut look)) => {
                     self.add(&mut look, (model_view, normal_matrix), shared, backend);
-                    if let Some(bits) = object.bits {
-                        looks.add(numbers.number(number.bypass_change_detection(), bits), look);
+                    let found = |surface| numbers.number(number.bypass_change_detection(), LookBits::new(surface));
+                    if let Some(number) = known.or_else(|| object.surface.map(found)) {
+                        looks.add(number, look);
                     }
                 }
                 Ok(None) => {}
@@ -238,7 +240,7 @@ impl LitPatches {
         let mut records = Vec::with_capacity(seen.len());
         for patch in seen {
             let patch = look.in_eye_space(*patch, placed.model_view, placed.normal_matrix);
-            let listed = self.lists.list(shared.lights, &patch, &look.listing);
+            let listed = self.lists.list(shared.lights, &patch, look.listing(shared));
             records.push(self.table.number(&mut self.records, look.material, listed));
         }
         self.add_runs(look, placed, seen.iter().copied().zip(records));

@@ -7,7 +7,7 @@ use crate::geometry::meshes::{Form, Geometries, Geometry, Paint, PaintComponents
 use crate::lights::surroundings::Surroundings;
 use crate::lights::terms::shown_shading;
 use crate::view::camera::View;
-use crate::view::looks::{LookBits, Surface};
+use crate::view::looks::Surface;
 use crate::view::select::Visible;
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
@@ -51,8 +51,8 @@ pub(super) struct ShownObject<'a> {
     pub(super) lacks_environment: bool,
     pub(super) terms: Terms,
     pub(super) tolerance: Tolerance,
-    /// Its components, unless it has images or a solid.
-    pub(super) bits: Option<LookBits>,
+    /// The components that make its look, unless it has images or a solid.
+    pub(super) surface: Option<Surface<'a>>,
 }
 
 impl ShownObjects<'_, '_> {
@@ -67,7 +67,7 @@ impl ShownObjects<'_, '_> {
             self.objects.get(entity).ok()?;
         let (colors, maps, alpha, solid) = components;
         let surface = Surface { mesh, material, back, shading, reflectance, faces, colors, alpha, tolerance };
-        let bits = (maps.is_none() && solid.is_none()).then(|| LookBits::new(surface));
+        let surface = (maps.is_none() && solid.is_none()).then_some(surface);
         let shading = shown_shading(shading, &self.view);
         let of_mesh = |mesh| Paint::new(mesh, components, shading, self.surroundings.are_there());
         let mut paint = self.meshes.get(&mesh.0).map_or(Paint::default(), of_mesh);
@@ -97,7 +97,7 @@ impl ShownObjects<'_, '_> {
             lacks_environment,
             terms: shading.into(),
             tolerance: tolerance.copied().unwrap_or(self.view.tolerance),
-            bits,
+            surface,
         })
     }
 }

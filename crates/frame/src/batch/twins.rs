@@ -100,7 +100,7 @@ mod tests {
             twins.add(instance, (Vec3::new(x, 0.0, z), 1.5));
         }
         assert!(twins.find().is_empty());
-        // Those that were looked at closely.
+        // So many were looked at closely.
         assert!(twins.counts.len() < 10_000 / 8, "{}", twins.counts.len());
     }
 }

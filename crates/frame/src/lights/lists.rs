@@ -31,6 +31,7 @@ pub struct LightLists {
 }
 
 /// The reflection of light by an object.
+#[derive(Debug)]
 pub(crate) struct Reflector {
     /// The sides that are seen; twice the same where one is.
     pub(crate) sides: [Coefficients<f32>; 2],

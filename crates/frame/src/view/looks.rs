@@ -206,6 +206,21 @@ mod tests {
     use bevy_color::LinearRgba;
     use bevy_transform::components::Transform;
 
+    /// An object with at most a material.
+    fn plain<'a>(mesh: &'a Mesh3d, material: Option<&'a Material>) -> Surface<'a> {
+        Surface {
+            mesh,
+            material,
+            back: None,
+            shading: None,
+            reflectance: None,
+            faces: None,
+            colors: None,
+            alpha: None,
+            tolerance: None,
+        }
+    }
+
     /// Gives an object a component, changes it, and takes it away.
     type Steps = [fn(&mut EntityWorldMut); 3];
 
@@ -235,18 +250,7 @@ mod tests {
         };
         let learn = |world: &mut World, of: Entity| {
             let mesh = world.get::<Mesh3d>(of).expect("an object").clone();
-            let surface = Surface {
-                mesh: &mesh,
-                material: None,
-                back: None,
-                shading: None,
-                reflectance: None,
-                faces: None,
-                colors: None,
-                alpha: None,
-                tolerance: None,
-            };
-            let bits = LookBits::new(surface);
+            let bits = LookBits::new(plain(&mesh, None));
             let mut look = *world.get::<Look>(of).expect("an object");
             world.resource_mut::<Looks>().number(&mut look, bits);
             world.entity_mut(of).insert(look);
@@ -290,18 +294,7 @@ mod tests {
             looks.begin();
             let red = frame as f32 / 4096.0;
             let material = Material { diffuse: LinearRgba::rgb(red, 0.0, 0.0), ..Material::DEFAULT };
-            let surface = Surface {
-                mesh: &Mesh3d::default(),
-                material: Some(&material),
-                back: None,
-                shading: None,
-                reflectance: None,
-                faces: None,
-                colors: None,
-                alpha: None,
-                tolerance: None,
-            };
-            let bits = LookBits::new(surface);
+            let bits = LookBits::new(plain(&Mesh3d::default(), Some(&material)));
             let number = looks.number(&mut look, bits);
             assert_eq!(looks.known(look), Some(number));
             assert!(number as usize <= Looks::REMEMBERED, "{number}");

@@ -25,7 +25,7 @@ pub struct Visible(pub Vec<Entity>);
 #[derive(Resource, Clone, Debug, Default)]
 pub(crate) struct Representatives(pub(crate) Vec<Entity>);
 
-/// What has been seen. It is kept, table by table, while neither the view nor the objects change.
+/// The outcome of selecting, which is kept table by table while neither the view nor the objects change.
 #[derive(Resource, Debug, Default)]
 pub struct Selected {
     /// Of the rows of each table in turn.
@@ -295,7 +295,7 @@ fn have_changed<T>(of: &ContiguousRef<T>, rows: &Range<usize>) -> bool {
     any_newer(&of.changed_ticks_slice()[rows.clone()], last, now)
 }
 
-/// What some rows show.
+/// The outcome for some rows.
 #[derive(Debug, Default)]
 struct Seen {
     /// The objects of the rows when they were looked at.
