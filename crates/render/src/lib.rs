@@ -41,6 +41,8 @@ pub use gpu::pipelines::compile::Compile;
 #[cfg(feature = "wgpu")]
 pub use gpu::surface::{SurfaceLost, SurfaceTarget};
 #[cfg(feature = "wgpu")]
+pub use gpu::window_pass::{DrawOverWindow, WindowPass};
+#[cfg(feature = "wgpu")]
 pub use gpu::texture::TextureTarget;
 #[cfg(feature = "wgpu")]
 pub use gpu::timer::GpuTimer;

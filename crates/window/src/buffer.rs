@@ -1,6 +1,7 @@
 //! Shows the CPU's pictures in a window: a buffer of the window system, without a graphics driver.
 
 use crate::error::WindowError;
+use crate::overlay::Overlay;
 use bevy_math::UVec2;
 use softbuffer::{Context, SoftBufferError, Surface};
 use std::num::NonZeroU32;
@@ -22,8 +23,14 @@ impl WindowBuffer {
         Ok(Self { surface, size: UVec2::ZERO })
     }
 
-    /// Shows a picture of this size: four bytes a pixel, red, green, blue and one more, row by row from the top.
-    pub(crate) fn show(&mut self, size: UVec2, picture: &[u8]) -> Result<(), WindowError> {
+    /// Shows a picture of this size: four bytes a pixel, red, green, blue and one more, row by row from the top; and the
+    /// overlay over it.
+    pub(crate) fn show(
+        &mut self,
+        size: UVec2,
+        picture: &[u8],
+        overlay: Option<&mut (dyn Overlay + 'static)>,
+    ) -> Result<(), WindowError> {
         let (Some(width), Some(height)) = (NonZeroU32::new(size.x), NonZeroU32::new(size.y)) else { return Ok(()) };
         if size != self.size {
             self.surface.resize(width, height).map_err(refused)?;
@@ -32,6 +39,9 @@ impl WindowBuffer {
         let mut buffer = self.surface.buffer_mut().map_err(refused)?;
         for (shown, &[red, green, blue, _]) in buffer.iter_mut().zip(picture.as_chunks().0) {
             *shown = u32::from_be_bytes([0, red, green, blue]);
+        }
+        if let Some(overlay) = overlay {
+            overlay.paint(&mut buffer, size);
         }
         buffer.present().map_err(refused)
     }

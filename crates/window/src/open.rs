@@ -4,6 +4,7 @@ use crate::buffer::WindowBuffer;
 use crate::error::{WindowError, reason};
 use crate::input::Forward;
 use crate::orbit_camera::{DragArea, Pointer};
+use crate::overlay::Overlay;
 use bevy_ecs::prelude::*;
 use bevy_math::{UVec2, Vec2};
 use halfway_render::{Adapter, AdapterChoice, Canvas, CanvasTarget, Gpu, SurfaceLost, SurfaceTarget, wgpu};
@@ -86,13 +87,17 @@ impl Open {
 
     /// Shows the CPU's picture, replaces a lost surface or device, and returns whether the newest frame reached the
     /// display.
-    pub(crate) fn present(&mut self, world: &mut World) -> Result<bool, WindowError> {
+    pub(crate) fn present(
+        &mut self,
+        world: &mut World,
+        overlay: Option<&mut (dyn Overlay + 'static)>,
+    ) -> Result<bool, WindowError> {
         if let Some(buffer) = &mut self.buffer {
             let Some((size, picture)) = world.get_resource::<Canvas>().and_then(Canvas::bytes) else {
                 return Ok(false);
             };
             self.window.pre_present_notify();
-            return buffer.show(size, picture).map(|()| true);
+            return buffer.show(size, picture, overlay).map(|()| true);
         }
         let surface_lost = world.remove_resource::<SurfaceLost>().is_some();
         let device_lost = world.get_resource::<Gpu>().is_some_and(Gpu::is_lost);

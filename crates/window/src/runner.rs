@@ -3,6 +3,7 @@
 use crate::display::has_display;
 use crate::error::{WindowError, reason};
 use crate::open::Open;
+use crate::overlay::{Overlay, WindowOverlay};
 use crate::problems::{self, Reported};
 use crate::title::{FrameTime, title};
 use bevy_app::{App, AppExit, PluginsState};
@@ -70,6 +71,7 @@ struct Runner {
     app: App,
     settings: Settings,
     open: Option<Open>,
+    overlay: Option<Box<dyn Overlay>>,
     /// The window system reports that the window is fully covered.
     covered: bool,
     minimised: bool,
@@ -85,10 +87,12 @@ struct Runner {
 }
 
 impl Runner {
-    fn new(app: App, settings: Settings) -> Self {
+    fn new(mut app: App, settings: Settings) -> Self {
+        let overlay = app.world_mut().remove_non_send::<WindowOverlay>().map(|overlay| overlay.0);
         Self {
             app,
             open: None,
+            overlay,
             covered: false,
             minimised: false,
             exit: None,
@@ -114,12 +118,15 @@ impl Runner {
         if self.hidden() || self.exit.is_some() {
             return;
         }
+        if let (Some(overlay), Some(open)) = (&mut self.overlay, &self.open) {
+            overlay.frame(&open.window, self.app.world_mut());
+        }
         self.app.update();
         if let Some(exit) = self.app.should_exit() {
             return self.end(event_loop, exit);
         }
         let Some(open) = &mut self.open else { return };
-        let presented = match open.present(self.app.world_mut()) {
+        let presented = match open.present(self.app.world_mut(), self.overlay.as_deref_mut()) {
             Ok(presented) => presented,
             Err(error) => return self.end(event_loop, failed(&error)),
         };
@@ -233,7 +240,11 @@ impl ApplicationHandler for Runner {
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(open) = &mut self.open else { return };
-        open.input.event(&event, open.window.scale_factor(), self.app.world_mut());
+        let world = self.app.world_mut();
+        let is_kept = self.overlay.as_mut().is_some_and(|overlay| overlay.event(&open.window, &event, world));
+        if !is_kept {
+            open.input.event(&event, open.window.scale_factor(), world);
+        }
         match event {
             WindowEvent::RedrawRequested => self.frame(event_loop),
             // Not every window system follows a change of the scale factor with one of the size.

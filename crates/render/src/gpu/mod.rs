@@ -19,3 +19,4 @@ mod sub_pixel_grid;
 pub(crate) mod surface;
 pub(crate) mod texture;
 pub(crate) mod timer;
+pub(crate) mod window_pass;

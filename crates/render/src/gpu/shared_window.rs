@@ -3,6 +3,7 @@
 use crate::gpu::attachments::Target;
 use crate::gpu::device::Gpu;
 use crate::gpu::surface::{Lost, SurfaceLost, SurfaceTarget};
+use crate::gpu::window_pass::WindowPass;
 use crate::views::Views;
 use bevy_ecs::prelude::*;
 use halfway_frame::times::FrameTimes;
@@ -14,11 +15,15 @@ pub(crate) fn present(
     views: Res<Views>,
     target: Res<Target>,
     mut times: ResMut<FrameTimes>,
+    over: Option<ResMut<WindowPass>>,
     mut commands: Commands,
 ) {
     match times.at_display(|| surface.acquire_for_copies(&gpu)) {
         Ok(Some(texture)) => {
             copy_together(&gpu, (&views, &target), &texture.texture);
+            if let Some(mut over) = over {
+                over.draw(&gpu, &texture.texture);
+            }
             times.at_display(|| gpu.queue.present(texture));
         }
         Ok(None) => {}

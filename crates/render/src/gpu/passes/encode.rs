@@ -8,6 +8,7 @@ use crate::gpu::passes::ScenePasses;
 use crate::gpu::passes::over::OverPasses;
 use crate::gpu::pipelines::cache::Pipelines;
 use crate::gpu::timer::GpuTimer;
+use crate::gpu::window_pass::WindowPass;
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
 use bevy_math::URect;
@@ -153,8 +154,12 @@ pub(crate) fn present(
     mut target: ResMut<Target>,
     mut times: ResMut<FrameTimes>,
     mut report: ResMut<FrameReport>,
+    over: Option<ResMut<WindowPass>>,
 ) {
     if let Some(surface) = target.take_surface_texture() {
+        if let Some(mut over) = over {
+            over.draw(&gpu, &surface.texture);
+        }
         times.at_display(|| gpu.queue.present(surface));
     }
     // A lost device is the cause of all other errors.
