@@ -13,6 +13,7 @@ mod entry;
 mod environment;
 mod error;
 mod file;
+mod follow;
 pub mod import;
 mod intensity;
 mod json;

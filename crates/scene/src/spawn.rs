@@ -804,6 +804,17 @@ fn spawn_lights(
         }
         entries = Cow::Owned(default_lights());
     }
+    spawn_listed_lights((scene, &entries), camera, frames, origin, world)
+}
+
+/// Spawns lights of a scene, each in the frame that it is attached to.
+pub(crate) fn spawn_listed_lights(
+    (scene, entries): (&SceneFile, &[LightEntry]),
+    camera: Entity,
+    frames: &[Entity],
+    origin: DVec3,
+    world: &mut World,
+) -> Vec<Entity> {
     let spawn_entry = |(i, entry): (usize, &LightEntry)| {
         let parent = match &entry.attach {
             AttachEntry::World => None,
