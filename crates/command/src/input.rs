@@ -67,6 +67,12 @@ impl SceneInput {
         Ok(input)
     }
 
+    /// The same for the viewer, which can change it.
+    #[cfg(feature = "window")]
+    pub(crate) fn into_document(self) -> halfway_viewer::Document {
+        halfway_viewer::Document::new(self.scene, self.base_dir, self.file).seen_from(self.camera)
+    }
+
     /// The size of the picture in pixels: the command line's, or the scene's. A camera that frames everything needs the
     /// picture's shape, so the scene gets it.
     pub(crate) fn resize(&mut self, args: SizeArgs) -> UVec2 {

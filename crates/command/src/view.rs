@@ -2,6 +2,7 @@
 
 use clap::Args;
 use halfway::prelude::*;
+use halfway_viewer::SceneViewer;
 
 use crate::drawing::DrawingArgs;
 use crate::failure::Failure;
@@ -11,6 +12,9 @@ use crate::input::SceneInput;
 pub(crate) struct ViewArgs {
     #[command(flatten)]
     drawing: DrawingArgs,
+    /// Show the picture alone, without panels
+    #[arg(long)]
+    bare: bool,
 }
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
@@ -23,9 +27,16 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
         eprintln!("warning: a window has four samples a pixel; `halfway render` averages more");
     }
     let mut app = App::new();
-    app.add_plugins(HalfwayPlugins).insert_resource(WindowTitle(input.name()));
+    // The panels have the keys, too.
+    let window = WindowPlugin { viewer_keys: args.bare, ..WindowPlugin::default() };
+    app.add_plugins(HalfwayPlugins.set(window)).insert_resource(WindowTitle(input.name()));
     app.insert_resource(args.drawing.adapter.choice());
-    input.spawn(&mut app)?;
+    if args.bare {
+        input.spawn(&mut app)?;
+    } else {
+        let warnings = SceneViewer::new(input.into_document()).insert_into(&mut app).map_err(|error| Failure::new(2, error))?;
+        warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+    }
     match app.run() {
         AppExit::Success => Ok(()),
         // The error was already printed.

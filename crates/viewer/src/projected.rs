@@ -1,0 +1,55 @@
+//! Points of the world on the window, and back.
+
+use bevy_ecs::prelude::*;
+use egui::{Pos2, Rect, Vec2 as Points, pos2};
+use halfway::lighting::Lens;
+use halfway::prelude::*;
+
+/// The camera's picture on the window.
+pub(crate) struct Projected {
+    eye_from_world: Mat4,
+    lens: Lens<f64>,
+    /// In points of the panels.
+    window: Rect,
+}
+
+impl Projected {
+    /// `None` without a camera or a window.
+    pub(crate) fn new(camera: Entity, window: Rect, world: &World) -> Option<Self> {
+        let at = world.get::<GlobalTransform>(camera)?.affine();
+        let projection = world.get::<Camera>(camera)?.projection;
+        let size = [window.width(), window.height()].map(|points| points.round() as u32);
+        if size[0] == 0 || size[1] == 0 {
+            return None;
+        }
+        Some(Self { eye_from_world: Mat4::from(at.inverse()), lens: projection.lens(size), window })
+    }
+
+    /// The place of a point of the world; `None` where it is not before the camera.
+    pub(crate) fn place(&self, point: Vec3) -> Option<Pos2> {
+        let eye = self.eye_from_world.transform_point3(point);
+        let [x, y, _, w] = self.lens.clip_from_eye(eye.as_dvec3().to_array());
+        let depth = -f64::from(eye.z);
+        if !self.lens.shows(depth) || w <= 0.0 {
+            return None;
+        }
+        let share = [(x / w + 1.0) * 0.5, (1.0 - y / w) * 0.5].map(|share| share as f32);
+        let Rect { min, .. } = self.window;
+        let at = pos2(min.x + share[0] * self.window.width(), min.y + share[1] * self.window.height());
+        at.is_finite().then_some(at)
+    }
+
+    /// How far a point of the world has to be moved, parallel to the picture, to move on the window by so many points.
+    pub(crate) fn moved(&self, point: Vec3, by: Points) -> Vec3 {
+        let depth = -f64::from(self.eye_from_world.transform_point3(point).z);
+        let size = [self.window.width(), self.window.height()].map(f64::from);
+        let length = self.lens.pixel_size(depth, size) as f32;
+        let world_from_eye = self.eye_from_world.inverse();
+        world_from_eye.transform_vector3(Vec3::new(by.x, -by.y, 0.0) * length)
+    }
+
+    /// The length in the world of so many points at the depth of a point.
+    pub(crate) fn length(&self, point: Vec3, points: f32) -> f32 {
+        self.moved(point, Points::new(points, 0.0)).length()
+    }
+}
