@@ -7,6 +7,7 @@ use clap::builder::NonEmptyStringValueParser;
 use halfway::output::write_text;
 use halfway::prelude::*;
 use halfway::render::AdapterChoice;
+use halfway_chart::failures;
 use halfway_chart::filters::{FilterPlan, Filters};
 use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, FrontPlan, Fronts, Method, scenes};
 use halfway_chart::page::Page;
@@ -34,6 +35,9 @@ pub(crate) struct ChartArgs {
     /// Only the cost and the error of texture filters; the page is filters.html
     #[arg(long, conflicts_with_all = ["inputs", "small_chart", "method", "detail", "adapter"])]
     filters: bool,
+    /// Only the pages of known failure modes, with an index.html that links them
+    #[arg(long, conflicts_with_all = ["inputs", "quick", "filters", "small_chart", "tables", "method", "detail"])]
+    failures: bool,
     /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer; several times
     /// for several
     #[arg(id = "method", long = "method", value_name = "NAME")]
@@ -57,6 +61,13 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
         let plan = if args.quick { FilterPlan::QUICK } else { FilterPlan::FULL };
         let found = with_progress(plan.units(), |progress| Filters::measure(plan, progress))?;
         return write(args, &[found.page()]);
+    }
+    if args.failures {
+        let adapters = adapters(&args.adapters)?;
+        let found = with_progress(failures::PAGES, |progress| {
+            failures::all(&adapters, |page| progress.advance(1, page.title))
+        })?;
+        return write(args, &failures::pages(&found)?);
     }
     let only = FrontFilter { methods: args.methods.clone(), detail: args.detail.clone() };
     let plan = FrontPlan { only, ..if args.quick { FrontPlan::QUICK } else { FrontPlan::FULL } };

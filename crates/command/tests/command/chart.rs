@@ -51,6 +51,22 @@ fn one_point_is_measured_again_by_its_command() {
 }
 
 #[test]
+fn failure_modes_are_drawn_alone() {
+    let folder = folder("chart_failures");
+    succeeds(&folder, &["chart", "--failures", "--adapter", "cpu", "-o", "failures"]);
+    let index = fs::read_to_string(folder.join("failures/index.html")).expect("the index was written");
+    let pages: Vec<_> = fs::read_dir(folder.join("failures"))
+        .expect("the folder was written")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .filter(|name| name.starts_with("failure-") && name.ends_with(".html"))
+        .collect();
+    assert_eq!(pages.len(), 18);
+    for page in pages {
+        assert!(index.contains(&format!("href=\"{page}\"")), "{page}");
+    }
+}
+
+#[test]
 fn invalid_subjects_are_refused_before_measuring() {
     let folder = folder("chart_refused");
     let rows = [
@@ -58,6 +74,7 @@ fn invalid_subjects_are_refused_before_measuring() {
         (&["chart", "sphere", "--method", "cel"], "gouraud"),
         (&["chart", "sphere", "--detail", "17"], "8, 16, 32"),
         (&["chart", "--filters", "sphere"], "--filters"),
+        (&["chart", "--failures", "sphere"], "--failures"),
     ];
     for (arguments, told) in rows {
         let output = halfway(&folder, arguments);
