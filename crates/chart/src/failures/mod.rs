@@ -111,17 +111,22 @@ pub fn all(charted: &[ChartedAdapter], mut done: impl FnMut(&FailurePage)) -> Re
     drawn.chain(judged).map(|page| page.inspect(&mut done)).collect()
 }
 
+/// What the pages are, for those that link them.
+const ABOUT: &str = "Each known failure has its own page: pictures, how large the error is, the cause, the remedy, and the \
+                     test that checks it. The reference renderer draws the errors of methods; the adapters of this report \
+                     and the CPU draw those of rounding.";
+
 /// The pages of these failures, after an index of their own, `index.html`.
 ///
 /// # Errors
 /// A picture that could not be put on a page.
 pub fn pages(failures: &[FailurePage]) -> Result<Vec<Page>, ChartError> {
     let pages = failures.iter().map(FailurePage::page).collect::<Result<Vec<_>, _>>()?;
-    let section = section(&pages);
     let index = Page {
         file: "index.html".to_owned(),
-        title: section.title.clone(),
-        sections: vec![section],
+        title: "Failure modes".to_owned(),
+        lead: ABOUT.to_owned(),
+        sections: vec![Section { title: "Pages".to_owned(), text: Vec::new(), ..section(&pages) }],
         ..Page::default()
     };
     Ok(std::iter::once(index).chain(pages).collect())
@@ -131,12 +136,7 @@ pub fn pages(failures: &[FailurePage]) -> Result<Vec<Page>, ChartError> {
 pub(crate) fn section(pages: &[Page]) -> Section {
     Section {
         title: "Failure modes".to_owned(),
-        text: vec![
-            "Each known failure has its own page: pictures, how large the error is, the cause, the remedy, and the test \
-             that checks it. The reference renderer draws the errors of methods; the adapters of this report and the \
-             CPU draw those of rounding."
-                .to_owned(),
-        ],
+        text: vec![ABOUT.to_owned()],
         links: pages.iter().map(|page| (page.title.clone(), page.file.clone())).collect(),
         ..Section::default()
     }
