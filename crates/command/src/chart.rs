@@ -10,7 +10,7 @@ use halfway::render::AdapterChoice;
 use halfway_chart::failures;
 use halfway_chart::filters::{FilterPlan, Filters};
 use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, FrontPlan, Fronts, Method, scenes};
-use halfway_chart::page::Page;
+use halfway_chart::page::{NamedFile, Page};
 use halfway_chart::timing::{Machine, TimedShading};
 use halfway_chart::{ChartError, Progress, Report};
 
@@ -38,6 +38,9 @@ pub(crate) struct ChartArgs {
     /// Only the pages of known failure modes, with an index.html that links them
     #[arg(long, conflicts_with_all = ["inputs", "quick", "filters", "small_chart", "tables", "method", "detail"])]
     failures: bool,
+    /// Write these pages as chapters of a book, in Markdown
+    #[arg(long, requires = "failures")]
+    chapters: bool,
     /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer; several times
     /// for several
     #[arg(id = "method", long = "method", value_name = "NAME")]
@@ -67,7 +70,13 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
         let found = with_progress(failures::PAGES, |progress| {
             failures::all(&adapters, |page| progress.advance(1, page.title))
         })?;
-        return write(args, &failures::pages(&found)?);
+        if !args.chapters {
+            return write(args, &failures::pages(&found)?);
+        }
+        for page in &found {
+            write_all(&args.output, page.chapter()?)?;
+        }
+        return Ok(());
     }
     let only = FrontFilter { methods: args.methods.clone(), detail: args.detail.clone() };
     let plan = FrontPlan { only, ..if args.quick { FrontPlan::QUICK } else { FrontPlan::FULL } };
@@ -92,9 +101,7 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
 
 /// Writes the pages with their files, and the tables of the first.
 fn write(args: &ChartArgs, pages: &[Page]) -> Result<(), Failure> {
-    for (name, content) in pages.iter().flat_map(Page::files) {
-        write_and_report(&args.output.join(name), &content)?;
-    }
+    write_all(&args.output, pages.iter().flat_map(Page::files))?;
     match (&args.tables, pages) {
         (Some(file), [first, ..]) => write_and_report(file, &first.markdown()),
         _ => Ok(()),
@@ -178,6 +185,10 @@ fn adapters(names: &[String]) -> Result<Vec<ChartedAdapter>, Failure> {
         return Ok(vec![ChartedAdapter { name, adapter }]);
     }
     names.iter().map(open).collect()
+}
+
+fn write_all(folder: &Path, files: impl IntoIterator<Item = NamedFile>) -> Result<(), Failure> {
+    files.into_iter().try_for_each(|(name, content)| write_and_report(&folder.join(name), &content))
 }
 
 fn write_and_report(file: &Path, content: &str) -> Result<(), Failure> {

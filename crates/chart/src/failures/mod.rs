@@ -28,7 +28,7 @@ use image::RgbImage;
 use crate::error::ChartError;
 use crate::figure::Figure;
 use crate::front::ChartedAdapter;
-use crate::page::{Page, Section, exact_data_uri};
+use crate::page::{NamedFile, Page, Section, drawing, exact_data_uri};
 
 /// A known failure mode.
 #[derive(Clone, Debug)]
@@ -72,6 +72,28 @@ impl FailurePage {
             }],
             ..Page::default()
         })
+    }
+
+    /// The chapter `ID.md` of a book, in Markdown with HTML for the pictures, and its charts as SVG.
+    ///
+    /// # Errors
+    /// A picture that could not be put into the chapter.
+    pub fn chapter(&self) -> Result<Vec<NamedFile>, ChartError> {
+        let Self { id, title, cause, remedy, test, .. } = self;
+        let figure = |(caption, picture): &(&str, RgbImage)| {
+            let source = exact_data_uri(picture)?;
+            Ok(format!("<figure><img alt=\"\" src=\"{source}\"><figcaption>{caption}</figcaption></figure>\n"))
+        };
+        let pictures = self.pictures.iter().map(figure).collect::<Result<String, ChartError>>()?;
+        let files: Vec<NamedFile> = self.figures.iter().map(drawing).collect();
+        let charts =
+            self.figures.iter().zip(&files).map(|(chart, (file, _))| format!("![{}]({file})\n\n", chart.title));
+        let text = format!(
+            "# {title}\n\n{cause}\n\n**Remedy.** {remedy}\n\n<div class=\"pictures\">\n{pictures}</div>\n\n{}The test \
+             `{test}` checks these claims.\n",
+            charts.collect::<String>()
+        );
+        Ok(std::iter::once((format!("{id}.md"), text)).chain(files).collect())
     }
 }
 

@@ -11,6 +11,8 @@ use crate::failure::{Failure, Result};
 
 /// The folder of the chapters, from the root.
 pub(crate) const SOURCE: &str = "docs/book/src";
+/// The folder in it with the chapters that `halfway chart` writes, one for each known failure.
+pub(crate) const FAILURES: &str = "failures";
 /// What a link to a picture of the documentation begins with, and what stands for it in the built book.
 const PICTURES: [&str; 2] = ["../../pictures/", "pictures/"];
 /// The folders whose files may have anchors.
@@ -24,21 +26,46 @@ pub(crate) struct Chapter {
     pub(crate) text: String,
 }
 
-/// The chapters in the order of the contents.
+/// The chapters in the order of the contents, but for those of known failures.
 ///
 /// # Errors
 /// A file that cannot be read.
 pub(crate) fn all(root: &Path) -> Result<Vec<Chapter>> {
-    let read = |file: String| match std::fs::read_to_string(root.join(&file)) {
-        Ok(text) => Ok(Chapter { file, text }),
-        Err(error) => Err(Failure::new(format!("{file}: {error}"))),
-    };
-    let contents = read(format!("{SOURCE}/SUMMARY.md"))?;
-    let (found, _) = links(&contents.text);
-    found.iter().map(|(_, link)| read(format!("{SOURCE}/{}", link.target))).collect()
+    let listed = contents(root)?.into_iter().filter(|target| Path::new(target).parent() != Some(Path::new(FAILURES)));
+    listed.map(|target| Chapter::read(root, &target)).collect()
+}
+
+/// Checks that the contents list the chapters of known failures that were written.
+///
+/// # Errors
+/// The first that is not listed, or a folder that cannot be read.
+pub(crate) fn check_failures(root: &Path) -> Result {
+    let listed = contents(root)?;
+    let folder = Path::new(SOURCE).join(FAILURES);
+    let failed = |error: std::io::Error| Failure::new(format!("{}: {error}", folder.display()));
+    for entry in std::fs::read_dir(root.join(&folder)).map_err(failed)? {
+        let target = format!("{FAILURES}/{}", entry.map_err(failed)?.file_name().to_string_lossy());
+        if Path::new(&target).extension().is_some_and(|ending| ending == "md") && !listed.contains(&target) {
+            return Err(Failure::new(format!("{SOURCE}/SUMMARY.md does not list {target}")));
+        }
+    }
+    Ok(())
+}
+
+/// The files that the contents list.
+fn contents(root: &Path) -> Result<Vec<String>> {
+    let contents = Chapter::read(root, "SUMMARY.md")?;
+    Ok(links(&contents.text).0.iter().map(|(_, link)| link.target.to_owned()).collect())
 }
 
 impl Chapter {
+    fn read(root: &Path, name: &str) -> Result<Self> {
+        let file = format!("{SOURCE}/{name}");
+        let text =
+            std::fs::read_to_string(root.join(&file)).map_err(|error| Failure::new(format!("{file}: {error}")))?;
+        Ok(Self { file, text })
+    }
+
     /// The chapter as mdBook is given it: formulas as `MathML`, pictures of the documentation in the book's own folder,
     /// links to other pages of the repository as text, since the built book stands alone, and code that was included from
     /// within an `impl` without its indentation.

@@ -22,8 +22,8 @@ const BUILT: &str = "out/book";
 
 /// Build the book of docs/book into out/book, check its links, and try the commands of its questions
 ///
-/// The built book opens offline: out/book/index.html. The lines of code in it are included from the sources; the pages
-/// of known failure modes are drawn anew. A command of a question has to print the lines that the chapter shows.
+/// The built book opens offline: out/book/index.html. The lines of code in it are included from the sources; the chapters
+/// of known failures are drawn anew. A command of a question has to print the lines that the chapter shows.
 /// mdBook is installed into target/tools where it is missing.
 #[derive(Args, Debug)]
 #[command(verbatim_doc_comment)]
@@ -41,13 +41,12 @@ pub(crate) fn run(options: &Options) -> Result {
     chapters::check(&root)?;
     let chapters = chapters::all(&root)?;
     let mdbook = have_mdbook(options.setup)?;
+    let halfway = build(Program::Binary("halfway"))?;
+    draw_failures(&halfway)?;
     step("the book", Command::new(mdbook).args(["build", BOOK]).current_dir(&root))?;
     for name in chapters.iter().flat_map(chapters::Chapter::pictures) {
         copy(&root.join("docs/pictures").join(&name), &root.join(BUILT).join("pictures").join(&name))?;
     }
-    let halfway = build(Program::Binary("halfway"))?;
-    let failures = format!("{BUILT}/failures");
-    step("failure modes", on_the_cpu(&halfway).args(["chart", "--failures", "-o", &failures]))?;
     site::check(&root.join(BUILT))?;
     if !options.no_questions {
         for chapter in &chapters {
@@ -79,6 +78,19 @@ fn have_mdbook(setup: Setup) -> Result<PathBuf> {
     }
     step("installing mdBook", &mut install)?;
     Ok(program)
+}
+
+/// Writes the chapters of known failures anew.
+fn draw_failures(halfway: &Path) -> Result {
+    let folder = format!("{}/{}", chapters::SOURCE, chapters::FAILURES);
+    match std::fs::remove_dir_all(root().join(&folder)) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            return Err(Failure::new(format!("{folder}: {error}")));
+        }
+        _ => {}
+    }
+    step("known failures", on_the_cpu(halfway).args(["chart", "--failures", "--chapters", "-o", &folder]))?;
+    chapters::check_failures(&root())
 }
 
 fn copy(from: &Path, to: &Path) -> Result {
