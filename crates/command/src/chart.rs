@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
+use clap::{Args, ValueEnum};
 use halfway::output::write_text;
 use halfway::prelude::*;
 use halfway::render::AdapterChoice;
@@ -35,12 +35,10 @@ pub(crate) struct ChartArgs {
     /// Only the cost and the error of texture filters; the page is filters.html
     #[arg(long, conflicts_with_all = ["inputs", "small_chart", "method", "detail", "adapter"])]
     filters: bool,
-    /// Only the pages of known failure modes, with an index.html that links them
-    #[arg(long, conflicts_with_all = ["inputs", "quick", "filters", "small_chart", "tables", "method", "detail"])]
-    failures: bool,
-    /// Write these pages as chapters of a book, in Markdown
-    #[arg(long, requires = "failures")]
-    chapters: bool,
+    /// Only the pages of known failure modes, with an index.html that links them; or as chapters of a book, in Markdown
+    #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true, default_missing_value = "pages")]
+    #[arg(conflicts_with_all = ["inputs", "quick", "filters", "small_chart", "tables", "method", "detail"])]
+    failures: Option<FailureForm>,
     /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer; several times
     /// for several
     #[arg(id = "method", long = "method", value_name = "NAME")]
@@ -59,24 +57,28 @@ pub(crate) struct ChartArgs {
     tables: Option<PathBuf>,
 }
 
+/// How the known failure modes are written.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum FailureForm {
+    Pages,
+    Chapters,
+}
+
 pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     if args.filters {
         let plan = if args.quick { FilterPlan::QUICK } else { FilterPlan::FULL };
         let found = with_progress(plan.units(), |progress| Filters::measure(plan, progress))?;
         return write(args, &[found.page()]);
     }
-    if args.failures {
+    if let Some(form) = args.failures {
         let adapters = adapters(&args.adapters)?;
         let found = with_progress(failures::PAGES, |progress| {
             failures::all(&adapters, |page| progress.advance(1, page.title))
         })?;
-        if !args.chapters {
-            return write(args, &failures::pages(&found)?);
-        }
-        for page in &found {
-            write_all(&args.output, page.chapter()?)?;
-        }
-        return Ok(());
+        return match form {
+            FailureForm::Pages => write(args, &failures::pages(&found)?),
+            FailureForm::Chapters => found.iter().try_for_each(|page| write_all(&args.output, page.chapter()?)),
+        };
     }
     let only = FrontFilter { methods: args.methods.clone(), detail: args.detail.clone() };
     let plan = FrontPlan { only, ..if args.quick { FrontPlan::QUICK } else { FrontPlan::FULL } };
