@@ -75,6 +75,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, parts: Res<Pa
     commands.spawn((place, Turns(1.0), children![car]));
     commands.spawn((place, dots(1.7, 0.0, amber)));
 
+    // ANCHOR: circling_lights
     // Objects fixed, lights moving.
     let place = at(5.3, 0.0, 3.2);
     let [blue, violet] = [LinearRgba::rgb(0.05, 0.35, 1.0), LinearRgba::rgb(0.6, 0.1, 1.0)];
@@ -82,6 +83,7 @@ fn scene(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, parts: Res<Pa
     commands.spawn((place, Children::spawn(teapot())));
     commands.spawn((place, Turns(-1.0), Children::spawn(SpawnIter(lights.into_iter()))));
     commands.spawn((place, dots(2.8, 2.0, blue)));
+    // ANCHOR_END: circling_lights
 
     // Lights fixed, objects moving.
     let (place, green) = (at(-5.3, 0.0, -4.6), LinearRgba::rgb(0.2, 1.0, 0.35));
@@ -131,11 +133,13 @@ fn driving(angle: f32) -> Transform {
     Transform::from_translation(turned * Vec3::X * 1.7).with_rotation(turned * Quat::from_rotation_y(FRAC_PI_2))
 }
 
+// ANCHOR: turn
 fn turn(time: Res<Time>, mut turning: Query<(&Turns, &mut Transform)>) {
     for (turns, mut transform) in &mut turning {
         transform.rotation = Quat::from_rotation_y(turns.0 * TAU * (time.elapsed_secs() / LOOP).fract());
     }
 }
+// ANCHOR_END: turn
 
 /// Swings the camera, which shows that its light moves with it. In a window the mouse can still turn it.
 fn sway(time: Res<Time>, mut camera: Single<&mut Transform, With<Camera>>) {

@@ -2,6 +2,7 @@
 
 use crate::figure::{Panel, Point, Series, Style};
 
+// ANCHOR: front
 /// The indices of the points (time, error) that no other point dominates, the fastest first. Of equal points the first
 /// counts.
 pub(crate) fn front(points: &[(f64, f64)]) -> Vec<usize> {
@@ -18,6 +19,7 @@ pub(crate) fn front(points: &[(f64, f64)]) -> Vec<usize> {
     });
     order
 }
+// ANCHOR_END: front
 
 /// A panel of time and error: dominated points are pale, and a line in steps joins the front, since each time allows
 /// the least error of everything that takes no longer.

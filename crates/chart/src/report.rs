@@ -3,7 +3,7 @@
 use crate::error::ChartError;
 use crate::failures::{self, FailurePage};
 use crate::front::{ChartedAdapter, ChartedScene, FrontPlan, Fronts, MeasuredOver};
-use crate::page::{Page, Section};
+use crate::page::Page;
 use crate::progress::Progress;
 
 /// The results.
@@ -47,17 +47,7 @@ impl Report {
         let mut index = self.fronts.page();
         index.sections.push(MeasuredOver::section(&self.over));
         let failures = self.failures.iter().map(FailurePage::page).collect::<Result<Vec<_>, _>>()?;
-        index.sections.push(Section {
-            title: "Failure modes".to_owned(),
-            text: vec![
-                "Each known failure has its own page: pictures, how large the error is, the cause, the remedy, and the test \
-                 that checks it. The reference renderer draws the errors of methods; the adapters of this report and the \
-                 CPU draw those of rounding."
-                    .to_owned(),
-            ],
-            links: failures.iter().map(|page| (page.title.clone(), page.file.clone())).collect(),
-            ..Section::default()
-        });
+        index.sections.push(failures::section(&failures));
         Ok(std::iter::once(index).chain(failures).collect())
     }
 }

@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
+use clap::{Args, ValueEnum};
 use halfway::output::write_text;
 use halfway::prelude::*;
 use halfway::render::AdapterChoice;
+use halfway_chart::failures;
 use halfway_chart::filters::{FilterPlan, Filters};
 use halfway_chart::front::{ChartedAdapter, ChartedScene, FrontFilter, FrontPlan, Fronts, Method, scenes};
-use halfway_chart::page::Page;
+use halfway_chart::page::{NamedFile, Page};
 use halfway_chart::timing::{Machine, TimedShading};
 use halfway_chart::{ChartError, Progress, Report};
 
@@ -34,6 +35,10 @@ pub(crate) struct ChartArgs {
     /// Only the cost and the error of texture filters; the page is filters.html
     #[arg(long, conflicts_with_all = ["inputs", "small_chart", "method", "detail", "adapter"])]
     filters: bool,
+    /// Only the pages of known failure modes, with an index.html that links them; or as chapters of a book, in Markdown
+    #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true, default_missing_value = "pages")]
+    #[arg(conflicts_with_all = ["inputs", "quick", "filters", "small_chart", "tables", "method", "detail"])]
+    failures: Option<FailureForm>,
     /// Only this method, by the name that the page gives it, such as gouraud or phong-infinite-viewer; several times
     /// for several
     #[arg(id = "method", long = "method", value_name = "NAME")]
@@ -52,11 +57,28 @@ pub(crate) struct ChartArgs {
     tables: Option<PathBuf>,
 }
 
+/// How the known failure modes are written.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum FailureForm {
+    Pages,
+    Chapters,
+}
+
 pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     if args.filters {
         let plan = if args.quick { FilterPlan::QUICK } else { FilterPlan::FULL };
         let found = with_progress(plan.units(), |progress| Filters::measure(plan, progress))?;
         return write(args, &[found.page()]);
+    }
+    if let Some(form) = args.failures {
+        let adapters = adapters(&args.adapters)?;
+        let found = with_progress(failures::PAGES, |progress| {
+            failures::all(&adapters, |page| progress.advance(1, page.title))
+        })?;
+        return match form {
+            FailureForm::Pages => write(args, &failures::pages(&found)?),
+            FailureForm::Chapters => found.iter().try_for_each(|page| write_all(&args.output, page.chapter()?)),
+        };
     }
     let only = FrontFilter { methods: args.methods.clone(), detail: args.detail.clone() };
     let plan = FrontPlan { only, ..if args.quick { FrontPlan::QUICK } else { FrontPlan::FULL } };
@@ -81,9 +103,7 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
 
 /// Writes the pages with their files, and the tables of the first.
 fn write(args: &ChartArgs, pages: &[Page]) -> Result<(), Failure> {
-    for (name, content) in pages.iter().flat_map(Page::files) {
-        write_and_report(&args.output.join(name), &content)?;
-    }
+    write_all(&args.output, pages.iter().flat_map(Page::files))?;
     match (&args.tables, pages) {
         (Some(file), [first, ..]) => write_and_report(file, &first.markdown()),
         _ => Ok(()),
@@ -167,6 +187,10 @@ fn adapters(names: &[String]) -> Result<Vec<ChartedAdapter>, Failure> {
         return Ok(vec![ChartedAdapter { name, adapter }]);
     }
     names.iter().map(open).collect()
+}
+
+fn write_all(folder: &Path, files: impl IntoIterator<Item = NamedFile>) -> Result<(), Failure> {
+    files.into_iter().try_for_each(|(name, content)| write_and_report(&folder.join(name), &content))
 }
 
 fn write_and_report(file: &Path, content: &str) -> Result<(), Failure> {

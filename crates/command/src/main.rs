@@ -8,6 +8,7 @@ mod chart;
 mod choices;
 mod compare;
 mod convert;
+mod demo;
 mod drawing;
 mod edges;
 mod empty;
@@ -92,6 +93,8 @@ enum Command {
     /// it is complete.
     #[cfg(feature = "measure")]
     Chart(chart::ChartArgs),
+    /// Show an example that comes with the command, in a window or, with -o FILE, as a picture; without a name, list all
+    Demo(demo::DemoArgs),
     /// List the renderers, graphics adapters and the CPU, the default first
     Adapters,
     /// Print the JSON schema of scene files
@@ -114,7 +117,11 @@ fn main() -> ExitCode {
     let command = Cli::parse().command;
     // A window's connection to its display must not end the process.
     #[cfg(feature = "window")]
-    let has_window = matches!(command, Command::View(_));
+    let has_window = match &command {
+        Command::View(_) => true,
+        Command::Demo(args) => args.has_window(),
+        _ => false,
+    };
     #[cfg(not(feature = "window"))]
     let has_window = false;
     // The commands print errors of frames themselves, and why a picture is empty.
@@ -139,6 +146,7 @@ fn main() -> ExitCode {
         Command::Bench(args) => bench::run(&args),
         #[cfg(feature = "measure")]
         Command::Chart(args) => chart::run(&args),
+        Command::Demo(args) => demo::run(&args),
         Command::Adapters => adapters::run(),
         Command::Schema => {
             print!("{}", halfway::scene::json_schema());

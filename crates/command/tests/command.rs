@@ -7,6 +7,7 @@ mod command {
     mod bench;
     #[cfg(feature = "measure")]
     mod chart;
+    mod demos;
     mod lines;
     mod looks;
     mod models;

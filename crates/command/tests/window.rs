@@ -16,7 +16,7 @@ use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
 
-use window::viewer::{BETWEEN_LOOKS, Manager, Screen, Viewer, device_loser, eventually, same_framing, view};
+use window::viewer::{BETWEEN_LOOKS, Manager, Screen, Viewer, command, device_loser, eventually, same_framing, view};
 use window::wayland::Compositor;
 use x11rb::CURRENT_TIME;
 use x11rb::protocol::xproto::Keysym;
@@ -99,6 +99,20 @@ fn follows_keys_and_size(program: Command) {
 
     viewer.request_close();
     assert_eq!(viewer.end().code(), Some(0), "the exit code of a closed window");
+}
+
+#[test]
+fn an_example_of_the_command_is_shown_and_leaves_no_files() {
+    let screen = Screen::open();
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut program = command(&["demo", "transforms", "--adapter", "cpu", "--shading", "gouraud"]);
+    program.env("TMPDIR", folder.path());
+    let mut viewer = Viewer::run(&screen, program);
+    assert!(viewer.shown("Gouraud, Blinn–Phong", None).colors() > 50);
+    assert!(viewer.title().is_some_and(|title| title.starts_with("halfway – transforms.json — ")));
+    viewer.press(ESCAPE);
+    assert_eq!(viewer.end().code(), Some(0));
+    assert_eq!(folder.path().read_dir().expect("the folder").count(), 0);
 }
 
 #[test]

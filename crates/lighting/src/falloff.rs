@@ -163,6 +163,7 @@ pub(crate) fn number<T: Real, U: Real>(value: T) -> U {
     U::from_f64(value.to_f64().unwrap_or(f64::NAN))
 }
 
+// ANCHOR: attenuation
 /// `1 / max(a + b·d + c·d², 10⁻⁶)` for the constants `[a, b, c]` and the distance d, all 0 or more.
 ///
 /// With a = 0 and d = 0 it is [`ATTENUATION_MAX`]. If the divisor overflows it is 0.
@@ -171,7 +172,9 @@ pub fn attenuation<T: Real>([a, b, c]: [T; 3], d: T) -> T {
     let d = d.min(T::max_value());
     (a + d * (b + c * d)).max(T::from_f64(f64::from(ATTENUATION_MAX)).recip()).recip()
 }
+// ANCHOR_END: attenuation
 
+// ANCHOR: range_window
 /// `clamp(1 − (d/R)⁴, 0, 1)²` for a distance d and a range R > 0 (`KHR_lights_punctual`).
 pub fn range_window<T: Real>(d: T, range: T) -> T {
     let ratio = d / range;
@@ -179,7 +182,9 @@ pub fn range_window<T: Real>(d: T, range: T) -> T {
     let window = (T::one() - square * square).max(T::zero()).min(T::one());
     window * window
 }
+// ANCHOR_END: range_window
 
+// ANCHOR: spot_factor
 /// `max(cos φ, 0)^e` inside the cone and 0 outside, where `cos_phi` is the cosine of the angle between the axis and the
 /// ray to the lit point; OpenGL 2.1 §2.14.1.
 ///
@@ -200,3 +205,4 @@ pub fn spot_factor<T: Real>(cos_phi: T, cone: &ConeTerms<T>) -> T {
         _ => factor,
     }
 }
+// ANCHOR_END: spot_factor

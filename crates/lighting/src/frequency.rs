@@ -1,5 +1,6 @@
 //! The frequency at which a term is evaluated.
 
+// ANCHOR: frequency
 /// The frequency at which a term of the lights is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Frequency {
@@ -12,3 +13,4 @@ pub enum Frequency {
     /// At each fragment, with the interpolated normal.
     Fragment,
 }
+// ANCHOR_END: frequency

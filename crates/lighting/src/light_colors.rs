@@ -52,6 +52,7 @@ impl<T: Real> Colors<T> {
         Colors { la: self.la.map(number), ld: self.ld.map(number), ls: self.ls.map(number) }
     }
 
+    // ANCHOR: arriving
     /// The light that arrives at a point from this incidence, `ambient` times the ambient colour.
     pub(super) fn arriving(
         &self,
@@ -70,6 +71,7 @@ impl<T: Real> Colors<T> {
             specular: scale(self.ls, weight * specular_term(reflectance, n, l, v, material)),
         }
     }
+    // ANCHOR_END: arriving
 }
 
 impl Colors<f64> {

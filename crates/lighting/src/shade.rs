@@ -40,6 +40,7 @@ pub fn reflected<T: Real>(irradiance: &Irradiance<T>, material: &Coefficients<T>
     add(ambient, add(diffuse, specular))
 }
 
+// ANCHOR: reflected_terms
 fn reflected_terms<T: Real>(irradiance: &Irradiance<T>, material: &Coefficients<T>) -> LightTerms<T> {
     LightTerms {
         ambient: mul(material.ka, irradiance.ambient),
@@ -47,6 +48,7 @@ fn reflected_terms<T: Real>(irradiance: &Irradiance<T>, material: &Coefficients<
         specular: mul(material.ks, irradiance.specular),
     }
 }
+// ANCHOR_END: reflected_terms
 
 /// The ambient, diffuse and specular term that one light adds at a point.
 pub fn light_terms<T: Real>(
@@ -70,6 +72,7 @@ pub fn light_contribution<T: Real>(
     reflected(&irradiance(surface, light, view, reflectance, material), material)
 }
 
+// ANCHOR: shade
 /// I: the colour of a point under all lights, linear RGB, unclamped.
 ///
 /// Never NaN, infinite or negative where the components that the arguments came from pass `validate()`, positions are
@@ -85,3 +88,4 @@ pub fn shade<T: Real>(
     let unlit = add(material.ke, mul(material.ka, global_ambient));
     lights.iter().fold(unlit, |sum, light| add(sum, light_contribution(surface, material, light, view, reflectance)))
 }
+// ANCHOR_END: shade

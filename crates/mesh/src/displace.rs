@@ -37,12 +37,14 @@ impl Mesh {
             *heights += f64::from(height);
             *count += 1.0;
         }
+        // ANCHOR: place
         let place = |(vertex, &group): (usize, &u32)| {
             let (n, heights, count) = sums[group as usize];
             // The sum of opposite unit normals is 0 but for rounding.
             let n = if n.length() > 1e-6 * count { n.normalize() } else { DVec3::ZERO };
             (self.positions()[vertex].as_dvec3() + n * (heights / count)).as_vec3()
         };
+        // ANCHOR_END: place
         let positions: Vec<Vec3> = groups.numbers.iter().enumerate().map(place).collect();
         if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
             let value = positions[vertex].to_array();

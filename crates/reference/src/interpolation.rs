@@ -41,6 +41,7 @@ impl Interpolation {
         }
     }
 
+    // ANCHOR: at
     /// The value at a point of the picture; `None` outside of the polygon, which is convex, its corners in order round
     /// it.
     pub fn at<const N: usize>(self, corners: &[PolygonCorner<N>], point: [f64; 2]) -> Option<[f64; N]> {
@@ -62,6 +63,7 @@ impl Interpolation {
             Some(std::array::from_fn(|k| (0..3).map(|i| weights[i] * triangle[i].value[k]).sum()))
         })
     }
+    // ANCHOR_END: at
 }
 
 /// The barycentric coordinates of a point; `None` outside, and for a triangle without area.

@@ -1,5 +1,6 @@
 //! The project's chores: `cargo xtask --help` lists them.
 
+mod book;
 mod cargo;
 mod checks;
 mod chores;
@@ -29,6 +30,7 @@ enum Chore {
     Test(chores::test::Options),
     Adapters(chores::adapters::Options),
     Arm(chores::arm::Options),
+    Book(chores::book::Options),
     Check(chores::check::Options),
     /// Make the pictures and the schema in docs/ again, by the commands that docs/gallery.md shows
     Docs,
@@ -46,6 +48,9 @@ enum Chore {
     #[command(verbatim_doc_comment)]
     Soak(chores::program::Arguments),
     Wheel(chores::wheel::Options),
+    /// mdBook's preprocessor for the book: JSON in, JSON out
+    #[command(hide = true)]
+    Preprocess,
     /// Draw random scenes, judge each by the reference renderer, and reduce failures
     ///
     /// A failure is printed and written to out/wild/ as a scene file. The same seed means the same scenes on every
@@ -62,6 +67,7 @@ impl Chore {
             Self::Test(options) => chores::test::run(&options),
             Self::Adapters(options) => chores::adapters::run(&options),
             Self::Arm(options) => chores::arm::run(&options),
+            Self::Book(options) => chores::book::run(&options),
             Self::Check(options) => chores::check::run(&options),
             Self::Docs => chores::docs::run(),
             Self::Chart(options) => chores::chart::run(&options),
@@ -70,6 +76,7 @@ impl Chore {
             Self::Instructions(options) => chores::instructions::run(&options),
             Self::Readme(options) => chores::readme::run(&options),
             Self::Screen(options) => chores::screen::run(&options),
+            Self::Preprocess => book::chapters::preprocess(std::io::stdin().lock(), std::io::stdout().lock()),
             Self::Soak(arguments) => chores::program::soak(&arguments),
             Self::Wheel(options) => chores::wheel::run(&options),
             Self::Wild(arguments) => chores::program::wild(&arguments),
@@ -103,6 +110,7 @@ mod tests {
             "adapters --no-install",
             "arm",
             "arm --no-install bits",
+            "book --no-install --no-questions",
             "check",
             "check circles doors",
             "docs",

@@ -44,6 +44,7 @@ pub(super) fn mach_bands() -> Result<FailurePage, ChartError> {
     })
 }
 
+// ANCHOR: terminator
 pub(super) fn terminator() -> Result<FailurePage, ChartError> {
     let all = pictures(SIDE)?;
     let [flat, gouraud, phong, truth] = &all;
@@ -58,6 +59,7 @@ pub(super) fn terminator() -> Result<FailurePage, ChartError> {
         pictures: shown([("flat", flat), ("Gouraud", gouraud), ("Phong", phong), ("true sphere", truth)]),
     })
 }
+// ANCHOR_END: terminator
 
 #[cfg(test)]
 mod tests {

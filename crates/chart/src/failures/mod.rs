@@ -28,7 +28,7 @@ use image::RgbImage;
 use crate::error::ChartError;
 use crate::figure::Figure;
 use crate::front::ChartedAdapter;
-use crate::page::{Page, Section, exact_data_uri};
+use crate::page::{NamedFile, Page, Section, drawing, exact_data_uri};
 
 /// A known failure mode.
 #[derive(Clone, Debug)]
@@ -73,6 +73,28 @@ impl FailurePage {
             ..Page::default()
         })
     }
+
+    /// The chapter `ID.md` of a book, in Markdown with HTML for the pictures, and its charts as SVG.
+    ///
+    /// # Errors
+    /// A picture that could not be put into the chapter.
+    pub fn chapter(&self) -> Result<Vec<NamedFile>, ChartError> {
+        let Self { id, title, cause, remedy, test, .. } = self;
+        let figure = |(caption, picture): &(&str, RgbImage)| {
+            let source = exact_data_uri(picture)?;
+            Ok(format!("<figure><img alt=\"\" src=\"{source}\"><figcaption>{caption}</figcaption></figure>\n"))
+        };
+        let pictures = self.pictures.iter().map(figure).collect::<Result<String, ChartError>>()?;
+        let files: Vec<NamedFile> = self.figures.iter().map(drawing).collect();
+        let charts =
+            self.figures.iter().zip(&files).map(|(chart, (file, _))| format!("![{}]({file})\n\n", chart.title));
+        let text = format!(
+            "# {title}\n\n{cause}\n\n**Remedy.** {remedy}\n\n<div class=\"pictures\">\n{pictures}</div>\n\n{}The test \
+             `{test}` checks these claims.\n",
+            charts.collect::<String>()
+        );
+        Ok(std::iter::once((format!("{id}.md"), text)).chain(files).collect())
+    }
 }
 
 type DrawnPage = fn() -> Result<FailurePage, ChartError>;
@@ -109,6 +131,37 @@ pub fn all(charted: &[ChartedAdapter], mut done: impl FnMut(&FailurePage)) -> Re
     let drawn = DRAWN.into_iter().map(|page| page());
     let judged = JUDGED.into_iter().map(|page| page(&renderers));
     drawn.chain(judged).map(|page| page.inspect(&mut done)).collect()
+}
+
+/// What the pages are, for those that link them.
+const ABOUT: &str = "Each known failure has its own page: pictures, how large the error is, the cause, the remedy, and the \
+                     test that checks it. The reference renderer draws the errors of methods; the adapters of this report \
+                     and the CPU draw those of rounding.";
+
+/// The pages of these failures, after an index of their own, `index.html`.
+///
+/// # Errors
+/// A picture that could not be put on a page.
+pub fn pages(failures: &[FailurePage]) -> Result<Vec<Page>, ChartError> {
+    let pages = failures.iter().map(FailurePage::page).collect::<Result<Vec<_>, _>>()?;
+    let index = Page {
+        file: "index.html".to_owned(),
+        title: "Failure modes".to_owned(),
+        lead: ABOUT.to_owned(),
+        sections: vec![Section { title: "Pages".to_owned(), text: Vec::new(), ..section(&pages) }],
+        ..Page::default()
+    };
+    Ok(std::iter::once(index).chain(pages).collect())
+}
+
+/// A section that links the pages of failures.
+pub(crate) fn section(pages: &[Page]) -> Section {
+    Section {
+        title: "Failure modes".to_owned(),
+        text: vec![ABOUT.to_owned()],
+        links: pages.iter().map(|page| (page.title.clone(), page.file.clone())).collect(),
+        ..Section::default()
+    }
 }
 
 #[cfg(test)]

@@ -80,12 +80,7 @@ pub struct PageTable {
 impl Page {
     /// The page, its further files, and its charts as SVG.
     pub fn files(&self) -> Vec<NamedFile> {
-        let figures = self.sections.iter().flat_map(|section| &section.figures);
-        let svg = figures.map(|figure| {
-            let size =
-                if figure.columns() > 2 { Size { width: 1240, row: 300 } } else { Size { width: 900, row: 330 } };
-            (svg_file(figure), svg::figure(figure, size))
-        });
+        let svg = self.sections.iter().flat_map(|section| &section.figures).map(drawing);
         std::iter::once((self.file.clone(), html::html(self))).chain(self.beside.clone()).chain(svg).collect()
     }
 
@@ -110,6 +105,12 @@ impl PageTable {
         let lines = [line(&self.header), rule].into_iter().chain(self.rows.iter().map(|row| line(row)));
         format!("{}:\n\n{}", self.caption, lines.collect::<Vec<_>>().join("\n"))
     }
+}
+
+/// The file of a chart.
+pub(crate) fn drawing(figure: &Figure) -> NamedFile {
+    let size = if figure.columns() > 2 { Size { width: 1240, row: 300 } } else { Size { width: 900, row: 330 } };
+    (svg_file(figure), svg::figure(figure, size))
 }
 
 /// The name of a chart's file.

@@ -51,6 +51,30 @@ fn one_point_is_measured_again_by_its_command() {
 }
 
 #[test]
+fn failure_modes_are_drawn_alone() {
+    let folder = folder("chart_failures");
+    succeeds(&folder, &["chart", "--failures", "--adapter", "cpu", "-o", "failures"]);
+    let index = fs::read_to_string(folder.join("failures/index.html")).expect("the index was written");
+    let linked: Vec<_> = index.split("href=\"failure-").skip(1).filter_map(|rest| rest.split_once(".html\"")).collect();
+    assert_eq!(linked.len(), 18);
+    for (id, _) in linked {
+        assert!(folder.join(format!("failures/failure-{id}.html")).is_file(), "{id}");
+    }
+    let said = succeeds(&folder, &["chart", "--failures=chapters", "--adapter", "cpu", "-o", "chapters"]);
+    let chapters: Vec<_> = said.lines().filter_map(|line| line.strip_suffix(".md")).collect();
+    assert_eq!(chapters.len(), 18);
+    for chapter in chapters {
+        let text = fs::read_to_string(folder.join(format!("{chapter}.md"))).expect("the chapter was written");
+        assert!(
+            text.starts_with("# ") && text.contains("\n**Remedy.** ") && text.contains("\n<figure><img "),
+            "{text}"
+        );
+        let chart = text.split_once("\n![").and_then(|(_, rest)| rest.split_once("](")?.1.split_once(')'));
+        assert!(folder.join("chapters").join(chart.expect("a chart").0).is_file(), "{text}");
+    }
+}
+
+#[test]
 fn invalid_subjects_are_refused_before_measuring() {
     let folder = folder("chart_refused");
     let rows = [
@@ -58,6 +82,8 @@ fn invalid_subjects_are_refused_before_measuring() {
         (&["chart", "sphere", "--method", "cel"], "gouraud"),
         (&["chart", "sphere", "--detail", "17"], "8, 16, 32"),
         (&["chart", "--filters", "sphere"], "--filters"),
+        (&["chart", "--failures", "sphere"], "--failures"),
+        (&["chart", "--failures=book"], "[possible values: pages, chapters]"),
     ];
     for (arguments, told) in rows {
         let output = halfway(&folder, arguments);

@@ -32,8 +32,13 @@ fn by_a_driver(command: &mut Command) {
 
 /// The command that shows the teapot; the X display is set later.
 pub(crate) fn view() -> Command {
+    command(&["view", concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/teapot.obj")])
+}
+
+/// The command with arguments that open a window.
+pub(crate) fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
-    command.args(["view", concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/teapot.obj")]);
+    command.args(arguments);
     by_a_driver(&mut command);
     command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").stdin(Stdio::null());
     command

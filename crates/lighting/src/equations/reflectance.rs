@@ -9,6 +9,7 @@ use crate::{Reflectance, matched_shininess};
 /// of two unit vectors is known to about 10⁻⁷, so a shorter one has no direction.
 pub const HALFWAY_MIN: f32 = 1e-6;
 
+// ANCHOR: power
 /// `max(x, 0)^e` for a cosine x and an exponent e ≥ 0, with 0⁰ = 1 as in OpenGL.
 ///
 /// x is clamped to [0, 1]: a rounded cosine of 1.0000001 would otherwise grow past any bound with e. An error of x is
@@ -24,32 +25,41 @@ pub fn power<T: Real>(x: T, e: T) -> T {
         x.pow(e)
     }
 }
+// ANCHOR_END: power
 
+// ANCHOR: reflect
 /// `r = 2(n·l)n − l`: the direction of l mirrored about n. n and l have unit length.
 pub fn reflect<T: Real>(l: [T; 3], n: [T; 3]) -> [T; 3] {
     let nl = dot(n, l);
     sub(scale(n, nl + nl), l)
 }
+// ANCHOR_END: reflect
 
+// ANCHOR: half_vector
 /// `h = (l + v)/‖l + v‖`, or `None` where l and v are opposite (‖l + v‖ at most [`HALFWAY_MIN`]).
 pub fn half_vector<T: Real>(l: [T; 3], v: [T; 3]) -> Option<[T; 3]> {
     normalize_above(add(l, v), HALFWAY_MIN)
 }
+// ANCHOR_END: half_vector
 
 /// `max(n·l, 0)`: Lambert's cosine.
 pub fn diffuse_term<T: Real>(n: [T; 3], l: [T; 3]) -> T {
     dot(n, l).max(T::zero())
 }
 
+// ANCHOR: specular_phong
 /// Phong 1975: `max(r·v, 0)^α`, and 0 unless n·l > 0.
 pub fn specular_phong<T: Real>(n: [T; 3], l: [T; 3], v: [T; 3], alpha: T) -> T {
     if dot(n, l) > T::zero() { power(dot(reflect(l, n), v), alpha) } else { T::zero() }
 }
+// ANCHOR_END: specular_phong
 
+// ANCHOR: specular_blinn_phong
 /// Blinn 1977: `max(n·h, 0)^β`, and 0 unless n·l > 0. Where l = −v there is no halfway vector and the term is 0.
 pub fn specular_blinn_phong<T: Real>(n: [T; 3], l: [T; 3], v: [T; 3], beta: T) -> T {
     if dot(n, l) > T::zero() { half_vector(l, v).map_or(T::zero(), |h| power(dot(n, h), beta)) } else { T::zero() }
 }
+// ANCHOR_END: specular_blinn_phong
 
 /// The exponent that the specular term of `reflectance` takes for a material's shininess.
 pub fn specular_exponent<T: Real>(reflectance: Reflectance, shininess: T) -> T {
@@ -89,11 +99,13 @@ pub fn axial_exponent<T: Real>(axes: [[T; 3]; 2], widths: [T; 3], h: [T; 3], oth
     ((aa * a * a + (ab + ab) * a * b + bb * b * b) / squared).max(T::zero())
 }
 
+// ANCHOR: interpolated_normal
 /// An interpolated normal brought back to unit length, or the geometric normal where nothing is left of it (length at
 /// most [`NORMAL_MIN`]), as between vertices with opposite normals.
 pub fn interpolated_normal<T: Real>(n: [T; 3], geometric: [T; 3]) -> [T; 3] {
     normalize_above(n, NORMAL_MIN).unwrap_or(geometric)
 }
+// ANCHOR_END: interpolated_normal
 
 /// n turned to the side from which `reference` is seen: n where `reference`·v ≥ 0, else −n.
 ///

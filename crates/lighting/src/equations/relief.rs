@@ -3,6 +3,7 @@
 use super::vector::{add, cross, dot, length, normalize, normalize_or_zero, scale, sub};
 use super::{NORMAL_MIN, Real};
 
+// ANCHOR: mapped_normal
 /// The unit normal that a texel of a normal map names: x·t + y·w·(n × t) + z·n for (x, y, z) = (2c − 1)·(s, s, 1).
 ///
 /// n and t are the interpolated normal and tangent, neither brought to unit length, as `MikkTSpace` (Mikkelsen 2008)
@@ -15,6 +16,7 @@ pub fn mapped_normal<T: Real>(n: [T; 3], t: [T; 3], w: T, texel: [T; 3], s: T, o
     let sum = add(add(scale(t, x * s), scale(b, y * s)), scale(n, z));
     if length(n) > T::from_f64(NORMAL_MIN.into()) { normalize(sum).unwrap_or(otherwise) } else { otherwise }
 }
+// ANCHOR_END: mapped_normal
 
 /// The ways along which the normals of an image lie apart: perpendicular to n, a unit normal of the image. The first is
 /// t as far as it is so, at unit length, or 0 where nothing is left of it; the second w·(n × that). t and w are as in
@@ -24,6 +26,7 @@ pub fn lobe_axes<T: Real>(n: [T; 3], t: [T; 3], w: T) -> [[T; 3]; 2] {
     [along, scale(cross(n, along), w)]
 }
 
+// ANCHOR: bumped_normal
 /// The unit normal of a surface that is raised along its normals, by its slope alone (Blinn 1978, "Simulation of
 /// wrinkled surfaces").
 ///
@@ -49,6 +52,7 @@ pub fn bumped_normal<T: Real>(n: [T; 3], m: [T; 3], along: [[T; 3]; 2], rises: [
     let raised = sub(scale(n, T::one() + dot(g, m)), scale(g, dot(n, m)));
     normalize(raised).unwrap_or(otherwise)
 }
+// ANCHOR_END: bumped_normal
 
 #[cfg(test)]
 mod tests {

@@ -180,6 +180,7 @@ pub struct Point<T> {
 }
 
 impl<T: Real> Point<T> {
+    // ANCHOR: arriving_at
     /// Its direction and strength at a point. If the light is at the point itself ([`COINCIDENT`]) l is n and the
     /// distance 0.
     pub(super) fn arriving_at(&self, surface: &ShadedPoint<T>) -> Incidence<T> {
@@ -192,6 +193,7 @@ impl<T: Real> Point<T> {
         let window = self.range.map_or(T::one(), |range| range_window(d, range));
         Incidence { l, grazing, weight: attenuation(self.attenuation, d) * window }
     }
+    // ANCHOR_END: arriving_at
 
     /// The light that arrives with this incidence.
     pub(super) fn arriving(

@@ -37,6 +37,7 @@ pub(super) struct Face {
 }
 
 impl Face {
+    // ANCHOR: face
     pub(super) fn new(corners: [Vec3; 3]) -> Option<Self> {
         let [p0, p1, p2] = corners.map(Vec3::as_dvec3);
         let edges = [p1 - p0, p2 - p1, p0 - p2];
@@ -50,7 +51,9 @@ impl Face {
             edges,
         })
     }
+    // ANCHOR_END: face
 
+    // ANCHOR: weights
     /// The weights at its corners, all positive.
     pub(super) fn weights(&self, weighting: NormalWeighting) -> [f64; 3] {
         match weighting {
@@ -66,6 +69,7 @@ impl Face {
             }),
         }
     }
+    // ANCHOR_END: weights
 
     /// The two edges that leave a corner.
     fn sides(&self, corner: usize) -> (DVec3, DVec3) {

@@ -15,6 +15,7 @@ pub(super) struct FootprintShape<T> {
 }
 
 impl<T: Number> FootprintShape<T> {
+    // ANCHOR: footprint
     /// From the derivatives of (u, v) along x and along y of the picture.
     pub(super) fn new(size: [u32; 2], footprint: [[T; 2]; 2]) -> Self {
         let [width, height] = size.map(|side| T::from_f64(side.into()));
@@ -28,6 +29,7 @@ impl<T: Number> FootprintShape<T> {
         let short = if long > T::zero() { (area / long).min(long) } else { T::zero() };
         Self { moments: [uu, uv, vv], long, short }
     }
+    // ANCHOR_END: footprint
 
     /// Whether it is finite and covers at most 10⁹ texels, unlike near a horizon. A footprint of that size can be
     /// squared in single precision.

@@ -5,6 +5,7 @@
 
 pub(crate) mod adapters;
 pub(crate) mod arm;
+pub(crate) mod book;
 pub(crate) mod chart;
 pub(crate) mod check;
 pub(crate) mod demo;

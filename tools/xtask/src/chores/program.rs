@@ -35,12 +35,17 @@ pub(crate) enum Program {
 }
 
 /// Builds a program and runs it with `arguments`.
+pub(crate) fn run<A: AsRef<OsStr>>(title: &str, program: Program, arguments: impl IntoIterator<Item = A>) -> Result {
+    step(title, Command::new(build(program)?).args(arguments).current_dir(root()))
+}
+
+/// Builds a program; its path.
 ///
 /// It is built as a part of the workspace: chosen by its package, its dependencies would have other features than for
 /// the tests, and most of them would be built once more.
-pub(crate) fn run<A: AsRef<OsStr>>(title: &str, program: Program, arguments: impl IntoIterator<Item = A>) -> Result {
+pub(crate) fn build(program: Program) -> Result<PathBuf> {
     step("build", cargo(["build", "--release", "--workspace"]).args(program.target()))?;
-    step(title, Command::new(program.built()?).args(arguments).current_dir(root()))
+    program.built()
 }
 
 impl Program {

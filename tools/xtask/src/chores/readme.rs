@@ -122,4 +122,11 @@ mod tests {
         assert_eq!(ways_of(planted), Err(expected.to_owned()));
         assert_eq!(ways_of(Vec::new()), Err("README.md shows no command".to_owned()));
     }
+
+    #[test]
+    fn the_readme_is_short_and_links_the_book_at_once() {
+        let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
+        assert!(readme.split_whitespace().count() < 600, "{} words", readme.split_whitespace().count());
+        assert!(readme.lines().take(12).any(|line| line.contains("(docs/book/src/README.md)")));
+    }
 }

@@ -61,6 +61,7 @@ fn add_lists(p: vec3f, n: vec3f, material: Material, record: u32, terms: Terms) 
     return sum;
 }
 
+// ANCHOR: vertex_terms
 fn vertex_terms(p: vec3f, n: vec3f, material: Material, record: u32) -> Irradiance {
     let terms = Terms(VERTEX_DIFFUSE, VERTEX_SPECULAR);
     if !LISTED {
@@ -68,7 +69,9 @@ fn vertex_terms(p: vec3f, n: vec3f, material: Material, record: u32) -> Irradian
     }
     return add_lists(p, n, material, record, terms);
 }
+// ANCHOR_END: vertex_terms
 
+// ANCHOR: fragment_terms
 fn fragment_terms(p: vec3f, n: vec3f, material: Material, record: u32) -> Irradiance {
     let terms = Terms(FRAGMENT_DIFFUSE, FRAGMENT_SPECULAR);
     if !LISTED {
@@ -76,6 +79,7 @@ fn fragment_terms(p: vec3f, n: vec3f, material: Material, record: u32) -> Irradi
     }
     return add_lists(p, n, material, record, terms);
 }
+// ANCHOR_END: fragment_terms
 
 // In the format of the target.
 fn written(color: vec3f) -> vec3f {
