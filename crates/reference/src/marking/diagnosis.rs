@@ -1,0 +1,303 @@
+//! Which mistakes explain a picture.
+
+use std::collections::HashMap;
+
+use bevy_ecs::entity::Entity;
+use halfway_lighting::{Encoding, Intensity};
+use rayon::prelude::*;
+
+use super::pictures::MistakenPictures;
+use super::score::{error, total};
+use super::steps::{Steps, encoded, put};
+use crate::metrics::SizeMismatch;
+use crate::mistakes::{Mistake, Mistakes};
+use crate::{Image, Oracle};
+
+/// At most about this many pixels are drawn with every mistake.
+const PIXELS: u32 = 20_000;
+/// Mistakes that explain this share of the difference are named.
+const EXPLAINS: f64 = 0.8;
+/// Below this share pairs are tried.
+const ALMOST_ALL: f64 = 0.98;
+/// A pair is named where it leaves at most this part of what the best single mistake leaves.
+const PAIR_LEAVES: f64 = 0.25;
+/// The number of single mistakes that pairs begin with.
+const BEGINNINGS: usize = 8;
+/// Pictures are equal that differ by this part of what one of them differs from the right one.
+const EQUAL: f64 = 0.02;
+/// The share of the difference on either side that an area leaves out.
+const BESIDE: f64 = 0.02;
+
+/// What explains the difference of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnosis {
+    /// The share of right pixels among those that show an object or should, 0 to 1; those on silhouettes do not count.
+    pub right: f64,
+    /// The explanations, the best first; empty where no listed mistake explains the difference.
+    pub explanations: Vec<Explanation>,
+    /// The mistake that comes nearest where none explains the difference.
+    pub nearest: Option<Explanation>,
+}
+
+/// One mistake, or two at once, that explain a difference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Explanation {
+    /// One or two causes; all of them are there.
+    pub causes: Vec<Cause>,
+    /// The share of the difference that they explain, at most 1.
+    pub share: f64,
+    /// Where.
+    pub area: Area,
+    /// The object on which they explain most; `None` if that is the background.
+    pub object: Option<Entity>,
+}
+
+/// A mistake, or several that draw the same picture of this scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cause {
+    /// The likeliest first.
+    pub alternatives: Vec<Mistake>,
+}
+
+/// A rectangle of the picture, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Area {
+    /// The first column and row, from 0 at the top left.
+    pub from: (u32, u32),
+    /// The last column and row.
+    pub to: (u32, u32),
+}
+
+/// Finds the mistakes in pictures of one scene.
+///
+/// The scene is drawn with each mistake that could change it, when the first wrong picture is diagnosed, at up to about
+/// 20,000 evenly spaced pixels; pixels beside the silhouette of an object are left out, unless only they differ. The share
+/// of the difference that a mistake explains is 1 − e(actual, mistaken)/e(actual, right), where e is the sum of the
+/// differences above one step of 1/255, at most 64 for each channel. Mistakes are named that explain 80 % or more. Below
+/// 98 % pairs are tried as well, beginning with the eight best mistakes; a pair is named if it leaves at most a quarter of
+/// what the best single one leaves.
+#[derive(Debug)]
+pub struct Marker {
+    pictures: MistakenPictures,
+    size: (u32, u32),
+}
+
+impl Marker {
+    /// For pictures of what `oracle` draws, in bytes of this encoding. Pictures of bytes need an oracle that
+    /// [clamps](Oracle::with_clamping).
+    pub fn new(oracle: &Oracle, encoding: Encoding) -> Self {
+        let step = match oracle.policy() {
+            // The brightest pixel matters.
+            Intensity::Renormalize { .. } => 1,
+            _ => step(oracle.size()),
+        };
+        Self { pictures: MistakenPictures::new(oracle, step, encoding), size: oracle.size() }
+    }
+
+    /// Finds the mistakes that explain how `actual` differs from the right picture.
+    ///
+    /// # Errors
+    /// [`SizeMismatch`].
+    pub fn diagnose(&self, actual: &Image) -> Result<Diagnosis, SizeMismatch> {
+        if actual.dimensions() != self.size {
+            return Err(SizeMismatch { actual: actual.dimensions(), expected: self.size });
+        }
+        Ok(Examination::new(&self.pictures, actual).diagnosis())
+    }
+}
+
+/// A picture beside those with mistakes.
+struct Examination<'a> {
+    pictures: &'a MistakenPictures,
+    actual: &'a Image,
+    /// The numbers of the pixels that count.
+    counted: Vec<usize>,
+    right: Vec<Steps>,
+    /// The difference from the right picture.
+    difference: f64,
+}
+
+/// A mistake and the picture with it.
+struct Candidate {
+    mistakes: Vec<Mistake>,
+    picture: Vec<Steps>,
+    /// What is left of the difference.
+    left: f64,
+}
+
+impl<'a> Examination<'a> {
+    fn new(pictures: &'a MistakenPictures, actual: &'a Image) -> Self {
+        let inside = |beside: bool| !beside;
+        let counted = pictures.sheet.silhouettes().enumerate().filter(|(_, beside)| inside(*beside));
+        let counted = counted.map(|(number, _)| number).collect();
+        let mut it = Self { pictures, actual, counted, right: Vec::new(), difference: 0.0 };
+        it.measure();
+        if it.difference == 0.0 {
+            it.counted = (0..pictures.places.len()).collect();
+            it.measure();
+        }
+        it
+    }
+
+    /// Compares with the right picture.
+    fn measure(&mut self) {
+        self.right = self.picture(Mistakes::NONE);
+        self.difference = total(&self.seen(Mistakes::NONE), &self.right);
+    }
+
+    /// The examined picture's pixels, where somebody who makes these mistakes puts the counted ones.
+    fn seen(&self, mistakes: Mistakes) -> Vec<Steps> {
+        let pixel = |number: &usize| {
+            let (x, y) = put(self.pictures.places[*number], self.actual.dimensions(), mistakes);
+            encoded(self.actual.pixel(x, y), self.pictures.encoding, Mistakes::NONE)
+        };
+        self.counted.iter().map(pixel).collect()
+    }
+
+    /// The counted pixels of a picture with mistakes.
+    fn picture(&self, mistakes: Mistakes) -> Vec<Steps> {
+        self.pictures.picture(mistakes, &self.counted)
+    }
+
+    /// The picture with these mistakes.
+    fn candidate(&self, mistakes: &[Mistake]) -> Candidate {
+        let set = mistakes.iter().fold(Mistakes::NONE, |set, mistake| set.with(*mistake));
+        let picture = self.picture(set);
+        let left = total(&self.seen(set), &picture);
+        Candidate { mistakes: mistakes.to_vec(), picture, left }
+    }
+
+    fn diagnosis(self) -> Diagnosis {
+        let right = self.right_share();
+        if self.difference == 0.0 {
+            return Diagnosis { right, explanations: Vec::new(), nearest: None };
+        }
+        let possible = self.pictures.possible();
+        let mut singles: Vec<Candidate> = possible.par_iter().map(|mistake| self.candidate(&[*mistake])).collect();
+        singles.retain(|single| self.shows(single));
+        singles.sort_by(|a, b| a.left.total_cmp(&b.left));
+        let pair = if singles.first().is_some_and(|best| self.share(best) < ALMOST_ALL) {
+            self.best_pair(&singles)
+        } else {
+            None
+        };
+        let mut explanations = Vec::new();
+        if let Some(pair) = &pair {
+            let set = |mistake: Mistake| {
+                let single = singles.iter().find(|single| single.mistakes == [mistake]);
+                single.map_or_else(|| Cause { alternatives: vec![mistake] }, |single| self.cause(single, &singles))
+            };
+            explanations.push(self.explanation(pair, pair.mistakes.iter().map(|it| set(*it)).collect()));
+        }
+        let mut named: Vec<Mistake> = Vec::new();
+        for single in &singles {
+            if self.share(single) < EXPLAINS || single.mistakes.iter().any(|it| named.contains(it)) {
+                continue;
+            }
+            let cause = self.cause(single, &singles);
+            named.extend(&cause.alternatives);
+            explanations.push(self.explanation(single, vec![cause]));
+        }
+        let nearest = singles.first().filter(|best| explanations.is_empty() && self.share(best) > 0.0);
+        let nearest = nearest.map(|best| self.explanation(best, vec![self.cause(best, &singles)]));
+        Diagnosis { right, explanations, nearest }
+    }
+
+    /// Whether a mistake changes the picture of this scene.
+    fn shows(&self, candidate: &Candidate) -> bool {
+        let moved = candidate.mistakes.iter().any(|it| matches!(it, Mistake::UpsideDown | Mistake::Mirrored));
+        moved || total(&candidate.picture, &self.right) > 0.0
+    }
+
+    fn share(&self, candidate: &Candidate) -> f64 {
+        1.0 - candidate.left / self.difference
+    }
+
+    /// The pair that explains most, if it explains enough and much more than the best single mistake.
+    fn best_pair(&self, singles: &[Candidate]) -> Option<Candidate> {
+        let first = singles.iter().take(BEGINNINGS).enumerate();
+        let pairs: Vec<[Mistake; 2]> =
+            first.flat_map(|(i, a)| singles[i + 1..].iter().map(move |b| [a.mistakes[0], b.mistakes[0]])).collect();
+        let pairs = pairs.par_iter().map(|pair| self.candidate(pair));
+        let best = pairs.min_by(|a, b| a.left.total_cmp(&b.left))?;
+        let enough = self.share(&best) >= EXPLAINS && best.left <= PAIR_LEAVES * singles.first()?.left;
+        enough.then_some(best)
+    }
+
+    /// The mistake of a candidate, and those that draw the same picture.
+    fn cause(&self, of: &Candidate, singles: &[Candidate]) -> Cause {
+        let moves =
+            |candidate: &Candidate| put((0, 0), self.actual.dimensions(), Mistakes::from(candidate.mistakes[0]));
+        let differs = total(&of.picture, &self.right);
+        let equal = |other: &&Candidate| {
+            other.mistakes == of.mistakes
+                || (moves(other) == moves(of) && total(&other.picture, &of.picture) <= EQUAL * differs)
+        };
+        let mut alternatives: Vec<Mistake> = of.mistakes.clone();
+        let others = singles.iter().filter(equal).flat_map(|other| other.mistakes.iter().copied());
+        alternatives.extend(others.filter(|other| *other != of.mistakes[0]));
+        Cause { alternatives }
+    }
+
+    fn explanation(&self, candidate: &Candidate, causes: Vec<Cause>) -> Explanation {
+        let set = candidate.mistakes.iter().fold(Mistakes::NONE, |set, mistake| set.with(*mistake));
+        let (before, after) = (self.seen(Mistakes::NONE), self.seen(set));
+        let gain = |i: usize| error(before[i], self.right[i]) - error(after[i], candidate.picture[i]);
+        let gains: Vec<f64> = (0..self.counted.len()).map(|i| gain(i).max(0.0)).collect();
+        let mut by_object: HashMap<Option<Entity>, f64> = HashMap::new();
+        for (i, gain) in gains.iter().enumerate().filter(|(_, gain)| **gain > 0.0) {
+            *by_object.entry(self.pictures.sheet.object(self.counted[i])).or_default() += gain;
+        }
+        let object = by_object.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        Explanation {
+            causes,
+            share: self.share(candidate),
+            area: self.area(&gains),
+            object: object.and_then(|(object, _)| object),
+        }
+    }
+
+    /// The rectangle that holds nearly all of these gains of the counted pixels.
+    fn area(&self, gains: &[f64]) -> Area {
+        let ends = |of: fn((u32, u32)) -> u32| {
+            let mut along: Vec<(u32, f64)> = gains
+                .iter()
+                .zip(&self.counted)
+                .map(|(gain, number)| (of(self.pictures.places[*number]), *gain))
+                .collect();
+            along.sort_unstable_by_key(|(at, _)| *at);
+            let all: f64 = gains.iter().sum();
+            let first_above = |share: f64| {
+                let mut sum = 0.0;
+                let is_above = |(_, gain): &&(u32, f64)| {
+                    sum += gain;
+                    sum > share * all
+                };
+                along.iter().find(is_above).map_or(0, |(at, _)| *at)
+            };
+            (first_above(BESIDE), first_above(1.0 - BESIDE))
+        };
+        let ((left, right), (top, bottom)) = (ends(|at| at.0), ends(|at| at.1));
+        Area { from: (left, top), to: (right, bottom) }
+    }
+
+    /// The share of right pixels among those that show an object or should.
+    fn right_share(&self) -> f64 {
+        let seen = self.seen(Mistakes::NONE);
+        let (mut right, mut all) = (0_usize, 0_usize);
+        for (i, number) in self.counted.iter().enumerate() {
+            let is_right = error(seen[i], self.right[i]) <= 0.0;
+            if !is_right || self.pictures.sheet.object(*number).is_some() {
+                all += 1;
+                right += usize::from(is_right);
+            }
+        }
+        if all == 0 { 1.0 } else { right as f64 / all as f64 }
+    }
+}
+
+/// The distance between chosen pixels, along rows and columns.
+fn step((width, height): (u32, u32)) -> u32 {
+    let pixels = f64::from(width) * f64::from(height) / f64::from(PIXELS);
+    (pixels.sqrt().ceil() as u32).max(1)
+}

@@ -1,0 +1,16 @@
+//! Marks pictures that others have drawn of a scene, and finds the mistake that explains the difference.
+//!
+//! A [`Marker`] has the oracle draw the scene with each mistake of a [list](crate::mistakes::Mistake), and with pairs
+//! where no single one will do, and ranks them by how much of the difference they explain. A [`Rubric`] turns that into
+//! points.
+
+mod diagnosis;
+mod mistaken;
+mod pictures;
+mod rubric;
+mod score;
+mod steps;
+
+pub use diagnosis::{Area, Cause, Diagnosis, Explanation, Marker};
+pub use mistaken::mistaken_picture;
+pub use rubric::{Rubric, RubricError};

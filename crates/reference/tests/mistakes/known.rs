@@ -1,0 +1,86 @@
+//! Pictures with one known mistake.
+
+use std::collections::BTreeSet;
+
+use halfway_reference::marking::{Marker, mistaken_picture};
+use halfway_reference::mistakes::{Mistake, Mistakes};
+use image::RgbImage;
+use rayon::prelude::*;
+
+use crate::right::image;
+use crate::small;
+use crate::task::Task;
+use crate::tasks;
+
+/// The share of the pixels in which two pictures differ by two steps or more.
+fn differing(a: &RgbImage, b: &RgbImage) -> f64 {
+    let differs = |(a, b): &(&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|k| a.0[k].abs_diff(b.0[k]) >= 2);
+    a.pixels().zip(b.pixels()).filter(differs).count() as f64 / f64::from(a.width() * a.height())
+}
+
+/// At least this share of the pixels has to differ for two pictures to be told apart.
+const TELLS: f64 = 0.01;
+
+/// What is said of one picture.
+struct Said {
+    what: String,
+    mistake: Mistake,
+    /// Whether no other mistake draws the same.
+    unique: bool,
+    right: bool,
+    first: Vec<Mistake>,
+    share: f64,
+}
+
+fn of_task(task: &Task) -> Vec<Said> {
+    let oracle = task.oracle();
+    let marker = Marker::new(&oracle, task.encoding);
+    let right = mistaken_picture(&oracle, Mistakes::NONE, task.encoding);
+    let own: Vec<(Mistake, RgbImage)> = Mistake::ALL
+        .par_iter()
+        .map(|&mistake| (mistake, mistaken_picture(&oracle, mistake.into(), task.encoding)))
+        .collect();
+    let small = Mistake::ALL.iter().filter(|it| small::can_make(**it)).map(|&it| (it, small::draw(task, Some(it))));
+    let small: Vec<(Mistake, RgbImage)> = small.collect();
+    let pictures = own.iter().map(|it| ("oracle", it)).chain(small.iter().map(|it| ("small", it)));
+    let mut said = Vec::new();
+    for (by, (mistake, picture)) in pictures {
+        if differing(picture, &right) < TELLS {
+            continue;
+        }
+        let same: BTreeSet<Mistake> =
+            own.iter().filter(|(_, other)| differing(picture, other) < TELLS).map(|(other, _)| *other).collect();
+        let found = marker.diagnose(&image(picture, task.encoding)).expect("pictures of one size");
+        let first: Vec<Mistake> = match found.explanations.first().map(|it| &it.causes[..]) {
+            Some([cause]) => cause.alternatives.clone(),
+            _ => Vec::new(),
+        };
+        // All that is named draws the same, and the mistake is among it.
+        let is_right = first.contains(mistake) && first.iter().all(|it| it == mistake || same.contains(it));
+        said.push(Said {
+            what: format!("{mistake} in {} by {by}", task.name),
+            mistake: *mistake,
+            unique: same.iter().all(|it| it == mistake),
+            right: is_right,
+            share: found.explanations.first().or(found.nearest.as_ref()).map_or(0.0, |it| it.share),
+            first,
+        });
+    }
+    said
+}
+
+#[test]
+fn known_mistakes_are_named_first() {
+    let said: Vec<Said> = tasks::all().iter().flat_map(of_task).collect();
+    let right = said.iter().filter(|it| it.right).count();
+    let unique = said.iter().filter(|it| it.unique).count();
+    for it in said.iter().filter(|it| !it.right) {
+        println!("{}: {:?}, {:.3}", it.what, it.first, it.share);
+    }
+    let kinds: BTreeSet<Mistake> = said.iter().map(|it| it.mistake).collect();
+    println!("{right} of {} named first ({unique} like no other), of {} mistakes", said.len(), kinds.len());
+    for missing in Mistake::ALL.iter().filter(|it| !kinds.contains(it)) {
+        println!("never: {missing}");
+    }
+    assert!(right as f64 >= 0.95 * said.len() as f64);
+}

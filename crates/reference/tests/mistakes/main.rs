@@ -1,0 +1,7 @@
+//! Pictures with known mistakes, and what the marking says of them.
+
+mod known;
+mod right;
+mod small;
+mod task;
+mod tasks;
