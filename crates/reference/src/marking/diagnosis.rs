@@ -1,5 +1,6 @@
 //! Which mistakes explain a picture.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use bevy_ecs::entity::Entity;
@@ -8,7 +9,7 @@ use rayon::prelude::*;
 
 use super::pictures::MistakenPictures;
 use super::score::{error, total};
-use super::steps::{Steps, encoded, put};
+use super::steps::{Steps, encoded, is_move, put};
 use crate::metrics::SizeMismatch;
 use crate::mistakes::{Mistake, Mistakes};
 use crate::{Image, Oracle};
@@ -23,8 +24,9 @@ const ALMOST_ALL: f64 = 0.98;
 const PAIR_LEAVES: f64 = 0.25;
 /// The number of single mistakes that pairs begin with.
 const BEGINNINGS: usize = 8;
-/// Pictures are equal that differ by this part of what one of them differs from the right one.
-const EQUAL: f64 = 0.02;
+/// Pictures are equal that differ in fewer of their pixels, and by less of what one of them differs from the right one.
+const EQUAL_PIXELS: f64 = 0.005;
+const EQUAL_ERROR: f64 = 0.02;
 /// The share of the difference on either side that an area leaves out.
 const BESIDE: f64 = 0.02;
 
@@ -109,28 +111,40 @@ impl Marker {
 /// A picture beside those with mistakes.
 struct Examination<'a> {
     pictures: &'a MistakenPictures,
-    actual: &'a Image,
+    size: (u32, u32),
+    /// All of its pixels.
+    actual: Vec<Steps>,
     /// The numbers of the pixels that count.
     counted: Vec<usize>,
     right: Vec<Steps>,
+    /// The counted pixels as they are.
+    as_is: Vec<Steps>,
     /// The difference from the right picture.
     difference: f64,
 }
 
-/// A mistake and the picture with it.
+/// Mistakes and the picture with them.
 struct Candidate {
     mistakes: Vec<Mistake>,
+    /// The counted pixels.
     picture: Vec<Steps>,
     /// What is left of the difference.
     left: f64,
 }
 
 impl<'a> Examination<'a> {
-    fn new(pictures: &'a MistakenPictures, actual: &'a Image) -> Self {
-        let inside = |beside: bool| !beside;
-        let counted = pictures.sheet.silhouettes().enumerate().filter(|(_, beside)| inside(*beside));
-        let counted = counted.map(|(number, _)| number).collect();
-        let mut it = Self { pictures, actual, counted, right: Vec::new(), difference: 0.0 };
+    fn new(pictures: &'a MistakenPictures, actual: &Image) -> Self {
+        let bytes = actual.pixels().par_iter().map(|i| encoded(*i, pictures.encoding, Mistakes::NONE)).collect();
+        let inside = pictures.sheet.silhouettes().enumerate().filter(|(_, beside)| !beside);
+        let mut it = Self {
+            pictures,
+            size: actual.dimensions(),
+            actual: bytes,
+            counted: inside.map(|(number, _)| number).collect(),
+            right: Vec::new(),
+            as_is: Vec::new(),
+            difference: 0.0,
+        };
         it.measure();
         if it.difference == 0.0 {
             it.counted = (0..pictures.places.len()).collect();
@@ -141,29 +155,37 @@ impl<'a> Examination<'a> {
 
     /// Compares with the right picture.
     fn measure(&mut self) {
-        self.right = self.picture(Mistakes::NONE);
-        self.difference = total(&self.seen(Mistakes::NONE), &self.right);
+        self.right = self.picture(&[]);
+        self.as_is = self.moved(Mistakes::NONE);
+        self.difference = total(&self.as_is, &self.right);
     }
 
     /// The examined picture's pixels, where somebody who makes these mistakes puts the counted ones.
-    fn seen(&self, mistakes: Mistakes) -> Vec<Steps> {
+    fn moved(&self, mistakes: Mistakes) -> Vec<Steps> {
         let pixel = |number: &usize| {
-            let (x, y) = put(self.pictures.places[*number], self.actual.dimensions(), mistakes);
-            encoded(self.actual.pixel(x, y), self.pictures.encoding, Mistakes::NONE)
+            let (x, y) = put(self.pictures.places[*number], self.size, mistakes);
+            self.actual[y as usize * self.size.0 as usize + x as usize]
         };
         self.counted.iter().map(pixel).collect()
     }
 
-    /// The counted pixels of a picture with mistakes.
-    fn picture(&self, mistakes: Mistakes) -> Vec<Steps> {
-        self.pictures.picture(mistakes, &self.counted)
+    fn seen(&self, mistakes: &[Mistake]) -> Cow<'_, [Steps]> {
+        if mistakes.iter().any(|it| is_move(*it)) {
+            Cow::Owned(self.moved(mistakes.iter().copied().collect()))
+        } else {
+            Cow::Borrowed(&self.as_is)
+        }
     }
 
-    /// The picture with these mistakes.
+    /// The counted pixels of a picture with mistakes.
+    fn picture(&self, mistakes: &[Mistake]) -> Vec<Steps> {
+        let picture = self.pictures.picture(mistakes);
+        self.counted.iter().map(|number| picture[*number]).collect()
+    }
+
     fn candidate(&self, mistakes: &[Mistake]) -> Candidate {
-        let set = mistakes.iter().fold(Mistakes::NONE, |set, mistake| set.with(*mistake));
-        let picture = self.picture(set);
-        let left = total(&self.seen(set), &picture);
+        let picture = self.picture(mistakes);
+        let left = total(&self.seen(mistakes), &picture);
         Candidate { mistakes: mistakes.to_vec(), picture, left }
     }
 
@@ -205,8 +227,7 @@ impl<'a> Examination<'a> {
 
     /// Whether a mistake changes the picture of this scene.
     fn shows(&self, candidate: &Candidate) -> bool {
-        let moved = candidate.mistakes.iter().any(|it| matches!(it, Mistake::UpsideDown | Mistake::Mirrored));
-        moved || total(&candidate.picture, &self.right) > 0.0
+        candidate.mistakes.iter().any(|it| is_move(*it)) || total(&candidate.picture, &self.right) > 0.0
     }
 
     fn share(&self, candidate: &Candidate) -> f64 {
@@ -226,12 +247,14 @@ impl<'a> Examination<'a> {
 
     /// The mistake of a candidate, and those that draw the same picture.
     fn cause(&self, of: &Candidate, singles: &[Candidate]) -> Cause {
-        let moves =
-            |candidate: &Candidate| put((0, 0), self.actual.dimensions(), Mistakes::from(candidate.mistakes[0]));
+        let moves = |candidate: &Candidate| candidate.mistakes.iter().copied().find(|it| is_move(*it));
         let differs = total(&of.picture, &self.right);
+        let is_like = |other: &[Steps]| {
+            let unlike = other.iter().zip(&of.picture).filter(|(a, b)| error(**a, **b) > 0.0).count();
+            (unlike as f64) < EQUAL_PIXELS * other.len() as f64 && total(other, &of.picture) <= EQUAL_ERROR * differs
+        };
         let equal = |other: &&Candidate| {
-            other.mistakes == of.mistakes
-                || (moves(other) == moves(of) && total(&other.picture, &of.picture) <= EQUAL * differs)
+            other.mistakes == of.mistakes || (moves(other) == moves(of) && is_like(&other.picture))
         };
         let mut alternatives: Vec<Mistake> = of.mistakes.clone();
         let others = singles.iter().filter(equal).flat_map(|other| other.mistakes.iter().copied());
@@ -240,9 +263,8 @@ impl<'a> Examination<'a> {
     }
 
     fn explanation(&self, candidate: &Candidate, causes: Vec<Cause>) -> Explanation {
-        let set = candidate.mistakes.iter().fold(Mistakes::NONE, |set, mistake| set.with(*mistake));
-        let (before, after) = (self.seen(Mistakes::NONE), self.seen(set));
-        let gain = |i: usize| error(before[i], self.right[i]) - error(after[i], candidate.picture[i]);
+        let after = self.seen(&candidate.mistakes);
+        let gain = |i: usize| error(self.as_is[i], self.right[i]) - error(after[i], candidate.picture[i]);
         let gains: Vec<f64> = (0..self.counted.len()).map(|i| gain(i).max(0.0)).collect();
         let mut by_object: HashMap<Option<Entity>, f64> = HashMap::new();
         for (i, gain) in gains.iter().enumerate().filter(|(_, gain)| **gain > 0.0) {
@@ -283,10 +305,9 @@ impl<'a> Examination<'a> {
 
     /// The share of right pixels among those that show an object or should.
     fn right_share(&self) -> f64 {
-        let seen = self.seen(Mistakes::NONE);
         let (mut right, mut all) = (0_usize, 0_usize);
         for (i, number) in self.counted.iter().enumerate() {
-            let is_right = error(seen[i], self.right[i]) <= 0.0;
+            let is_right = error(self.as_is[i], self.right[i]) <= 0.0;
             if !is_right || self.pictures.sheet.object(*number).is_some() {
                 all += 1;
                 right += usize::from(is_right);

@@ -1,5 +1,6 @@
 //! The pictures of a scene with mistakes.
 
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use halfway_lighting::Encoding;
@@ -17,10 +18,26 @@ pub(super) struct MistakenPictures {
     pub(super) encoding: Encoding,
     /// The columns and rows of the pixels.
     pub(super) places: Vec<(u32, u32)>,
-    right: Vec<[f64; 3]>,
-    /// The intensities with single mistakes, drawn when they are needed first.
-    drawn: Vec<OnceLock<Vec<[f64; 3]>>>,
+    right: Drawn,
+    /// The pictures with single mistakes, drawn when they are needed first.
+    singles: Vec<OnceLock<Drawn>>,
     possible: OnceLock<Vec<Mistake>>,
+}
+
+/// The chosen pixels of a picture.
+#[derive(Debug)]
+struct Drawn {
+    /// Empty where they are those of the right picture.
+    intensities: Vec<[f64; 3]>,
+    bytes: Vec<Steps>,
+}
+
+impl Drawn {
+    fn new(sheet: &HitSheet, encoding: Encoding, mistakes: Mistakes) -> Self {
+        let intensities = sheet.drawn(mistakes);
+        let bytes = intensities.par_iter().map(|i| encoded(*i, encoding, mistakes)).collect();
+        Self { intensities, bytes }
+    }
 }
 
 impl MistakenPictures {
@@ -29,10 +46,10 @@ impl MistakenPictures {
         let sheet = HitSheet::new(oracle, step);
         Self {
             places: sheet.places().collect(),
-            right: sheet.drawn(Mistakes::NONE),
+            right: Drawn::new(&sheet, encoding, Mistakes::NONE),
             sheet,
             encoding,
-            drawn: Mistake::ALL.iter().map(|_| OnceLock::new()).collect(),
+            singles: Mistake::ALL.iter().map(|_| OnceLock::new()).collect(),
             possible: OnceLock::new(),
         }
     }
@@ -43,28 +60,37 @@ impl MistakenPictures {
             let possible = |it: &Mistake| could_show(*it, self.encoding) && self.sheet.could_show(*it);
             let possible: Vec<Mistake> = Mistake::ALL.iter().copied().filter(possible).collect();
             // Drawn here, by all threads for each: pixels of one picture share what its vertices have been shaded with.
-            possible.iter().filter(|it| !is_of_picture(**it)).for_each(|it| {
+            possible.iter().for_each(|it| {
                 self.single(*it);
             });
             possible
         })
     }
 
-    fn single(&self, mistake: Mistake) -> &[[f64; 3]] {
-        self.drawn[mistake as usize].get_or_init(|| self.sheet.drawn(mistake.into()))
+    fn single(&self, mistake: Mistake) -> &Drawn {
+        self.singles[mistake as usize].get_or_init(|| {
+            if is_of_picture(mistake) {
+                let bytes = self.encoded(&self.right.intensities, mistake.into());
+                return Drawn { intensities: Vec::new(), bytes };
+            }
+            Drawn::new(&self.sheet, self.encoding, mistake.into())
+        })
     }
 
-    /// The pixels of these numbers of the picture with mistakes.
-    pub(super) fn picture(&self, mistakes: Mistakes, numbers: &[usize]) -> Vec<Steps> {
-        let of_scene: Vec<Mistake> =
-            Mistake::ALL.iter().copied().filter(|mistake| mistakes.has(*mistake) && !is_of_picture(*mistake)).collect();
-        let encode = |intensities: &[[f64; 3]]| {
-            numbers.par_iter().map(|number| encoded(intensities[*number], self.encoding, mistakes)).collect()
-        };
-        match of_scene[..] {
-            [] => encode(&self.right),
-            [single] => encode(self.single(single)),
-            _ => encode(&self.sheet.drawn(of_scene.into_iter().fold(Mistakes::NONE, Mistakes::with))),
+    fn encoded(&self, intensities: &[[f64; 3]], mistakes: Mistakes) -> Vec<Steps> {
+        intensities.par_iter().map(|i| encoded(*i, self.encoding, mistakes)).collect()
+    }
+
+    /// The pixels of the picture with none, one or more mistakes.
+    pub(super) fn picture(&self, mistakes: &[Mistake]) -> Cow<'_, [Steps]> {
+        let all: Mistakes = mistakes.iter().copied().collect();
+        let of_scene: Vec<Mistake> = mistakes.iter().copied().filter(|it| !is_of_picture(*it)).collect();
+        match (mistakes, &of_scene[..]) {
+            ([], _) => Cow::Borrowed(&self.right.bytes),
+            (&[single], _) => Cow::Borrowed(&self.single(single).bytes),
+            (_, []) => Cow::Owned(self.encoded(&self.right.intensities, all)),
+            (_, &[single]) => Cow::Owned(self.encoded(&self.single(single).intensities, all)),
+            _ => Cow::Owned(self.encoded(&self.sheet.drawn(of_scene.into_iter().collect()), all)),
         }
     }
 }

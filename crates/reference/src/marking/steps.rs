@@ -20,8 +20,12 @@ const OF_ENCODING: [Mistake; 6] = [
 
 /// Whether the mistake changes only how intensities become bytes, or where pixels are.
 pub(super) fn is_of_picture(mistake: Mistake) -> bool {
-    mistake != Mistake::ClampMissing
-        && (OF_ENCODING.contains(&mistake) || matches!(mistake, Mistake::UpsideDown | Mistake::Mirrored))
+    mistake != Mistake::ClampMissing && (OF_ENCODING.contains(&mistake) || is_move(mistake))
+}
+
+/// Whether the mistake puts pixels elsewhere.
+pub(super) fn is_move(mistake: Mistake) -> bool {
+    matches!(mistake, Mistake::UpsideDown | Mistake::Mirrored)
 }
 
 /// Whether a mistake of the encoding could show in pictures of this encoding; `true` for others.

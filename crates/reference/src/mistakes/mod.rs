@@ -361,3 +361,9 @@ impl From<Mistake> for Mistakes {
         Self::NONE.with(mistake)
     }
 }
+
+impl FromIterator<Mistake> for Mistakes {
+    fn from_iter<I: IntoIterator<Item = Mistake>>(mistakes: I) -> Self {
+        mistakes.into_iter().fold(Self::NONE, Self::with)
+    }
+}

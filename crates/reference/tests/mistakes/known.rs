@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use halfway_lighting::Encoding;
 use halfway_reference::marking::{Marker, mistaken_picture};
 use halfway_reference::mistakes::{Mistake, Mistakes};
 use image::RgbImage;
@@ -32,16 +33,29 @@ struct Said {
     share: f64,
 }
 
+/// Whether somebody who draws the task can make the mistake at all.
+fn can_be_made(mistake: Mistake, task: &Task) -> bool {
+    match mistake {
+        Mistake::GammaMissing | Mistake::GammaTwice | Mistake::GammaAsPower => task.encoding == Encoding::Srgb,
+        Mistake::GammaUnasked => task.encoding == Encoding::Raw,
+        _ => true,
+    }
+}
+
 fn of_task(task: &Task) -> Vec<Said> {
+    let start = std::time::Instant::now();
     let oracle = task.oracle();
     let marker = Marker::new(&oracle, task.encoding);
     let right = mistaken_picture(&oracle, Mistakes::NONE, task.encoding);
-    let own: Vec<(Mistake, RgbImage)> = Mistake::ALL
+    let mistakes: Vec<Mistake> = Mistake::ALL.iter().copied().filter(|it| can_be_made(*it, task)).collect();
+    let own: Vec<(Mistake, RgbImage)> = mistakes
         .par_iter()
         .map(|&mistake| (mistake, mistaken_picture(&oracle, mistake.into(), task.encoding)))
         .collect();
-    let small = Mistake::ALL.iter().filter(|it| small::can_make(**it)).map(|&it| (it, small::draw(task, Some(it))));
-    let small: Vec<(Mistake, RgbImage)> = small.collect();
+    println!("own {:?}", start.elapsed());
+    let small: Vec<Mistake> = mistakes.iter().copied().filter(|it| small::can_make(*it)).collect();
+    let small: Vec<(Mistake, RgbImage)> = small.par_iter().map(|&it| (it, small::draw(task, it.into()))).collect();
+    println!("small {:?}", start.elapsed());
     let pictures = own.iter().map(|it| ("oracle", it)).chain(small.iter().map(|it| ("small", it)));
     let mut said = Vec::new();
     for (by, (mistake, picture)) in pictures {
@@ -66,6 +80,7 @@ fn of_task(task: &Task) -> Vec<Said> {
             first,
         });
     }
+    println!("said {:?} {}", start.elapsed(), said.len());
     said
 }
 

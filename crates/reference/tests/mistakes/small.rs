@@ -3,7 +3,7 @@
 
 use bevy_math::{Mat3, Mat4, Vec3};
 use halfway_lighting::{Encoding, Faces, Reflectance, Shading, Viewer};
-use halfway_reference::mistakes::Mistake;
+use halfway_reference::mistakes::{Mistake, Mistakes};
 use image::{Rgb, RgbImage};
 
 use crate::task::{Lamp, LampKind, Look, SIZE, Task, Thing};
@@ -17,9 +17,9 @@ pub(crate) fn can_make(mistake: Mistake) -> bool {
     )
 }
 
-/// Draws the task with a mistake.
-pub(crate) fn draw(task: &Task, mistake: Option<Mistake>) -> RgbImage {
-    let renderer = Renderer::new(task, mistake);
+/// Draws the task with these mistakes.
+pub(crate) fn draw(task: &Task, mistakes: Mistakes) -> RgbImage {
+    let renderer = Renderer::new(task, mistakes);
     let (width, height) = SIZE;
     let mut picture = RgbImage::new(width, height);
     for row in 0..height {
@@ -55,16 +55,16 @@ struct Met {
 
 struct Renderer<'a> {
     task: &'a Task,
-    mistake: Option<Mistake>,
+    mistakes: Mistakes,
     view: Mat4,
     triangles: Vec<Triangle>,
     lamps: Vec<Lamp>,
 }
 
 impl<'a> Renderer<'a> {
-    fn new(task: &'a Task, mistake: Option<Mistake>) -> Self {
+    fn new(task: &'a Task, mistakes: Mistakes) -> Self {
         let view = task.world_from_camera().inverse();
-        let mut it = Self { task, mistake, view, triangles: Vec::new(), lamps: task.lamps.clone() };
+        let mut it = Self { task, mistakes, view, triangles: Vec::new(), lamps: task.lamps.clone() };
         for (number, thing) in task.things.iter().enumerate() {
             it.add(number, thing);
         }
@@ -78,7 +78,7 @@ impl<'a> Renderer<'a> {
     }
 
     fn is(&self, mistake: Mistake) -> bool {
-        self.mistake == Some(mistake)
+        self.mistakes.has(mistake)
     }
 
     fn add(&mut self, number: usize, thing: &Thing) {

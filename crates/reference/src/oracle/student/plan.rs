@@ -82,9 +82,9 @@ fn point<T: Copy>(light: &Light<T>) -> Option<&Point<T>> {
 fn kept(scene: &OracleScene, entities: &[Entity], mistakes: Mistakes) -> Vec<Light<f64>> {
     let all = || entities.iter().zip(&scene.lights);
     let only = if mistakes.has(Mistake::FirstLightOnly) {
-        all().min_by_key(|(entity, _)| **entity)
+        all().min_by_key(|(entity, _)| entity.index())
     } else if mistakes.has(Mistake::LastLightOnly) {
-        all().max_by_key(|(entity, _)| **entity)
+        all().max_by_key(|(entity, _)| entity.index())
     } else {
         return scene.lights.clone();
     };
