@@ -17,9 +17,9 @@ use crate::{Image, Oracle};
 /// At most about this many pixels are drawn with every mistake.
 const PIXELS: u32 = 20_000;
 /// Mistakes that explain this share of the difference are named.
-const EXPLAINS: f64 = 0.8;
-/// Below this share pairs are tried.
-const ALMOST_ALL: f64 = 0.98;
+const EXPLAINS: f64 = 0.97;
+/// Pairs are tried where the best single mistake leaves this share of the pixels wrong.
+const LEFT_WRONG: f64 = 0.01;
 /// A pair is named where it leaves at most this part of what the best single mistake leaves.
 const PAIR_LEAVES: f64 = 0.25;
 /// The number of single mistakes that pairs begin with.
@@ -75,9 +75,9 @@ pub struct Area {
 /// The scene is drawn with each mistake that could change it, when the first wrong picture is diagnosed, at up to about
 /// 20,000 evenly spaced pixels; pixels beside the silhouette of an object are left out, unless only they differ. The share
 /// of the difference that a mistake explains is 1 − e(actual, mistaken)/e(actual, right), where e is the sum of the
-/// differences above one step of 1/255, at most 64 for each channel. Mistakes are named that explain 80 % or more. Below
-/// 98 % pairs are tried as well, beginning with the eight best mistakes; a pair is named if it leaves at most a quarter of
-/// what the best single one leaves.
+/// differences above one step of 1/255, at most 64 for each channel. Mistakes are named that explain 97 % or more.
+/// Where the best leaves 1 % of the pixels wrong pairs are tried as well, beginning with the eight best mistakes; a pair is
+/// named if it leaves at most a quarter of what the best single one leaves.
 #[derive(Debug)]
 pub struct Marker {
     pictures: MistakenPictures,
@@ -198,11 +198,8 @@ impl<'a> Examination<'a> {
         let mut singles: Vec<Candidate> = possible.par_iter().map(|mistake| self.candidate(&[*mistake])).collect();
         singles.retain(|single| self.shows(single));
         singles.sort_by(|a, b| a.left.total_cmp(&b.left));
-        let pair = if singles.first().is_some_and(|best| self.share(best) < ALMOST_ALL) {
-            self.best_pair(&singles)
-        } else {
-            None
-        };
+        let pair = singles.first().filter(|best| self.wrong_share(best) >= LEFT_WRONG);
+        let pair = pair.and_then(|_| self.best_pair(&singles));
         let mut explanations = Vec::new();
         if let Some(pair) = &pair {
             let set = |mistake: Mistake| {
@@ -232,6 +229,13 @@ impl<'a> Examination<'a> {
 
     fn share(&self, candidate: &Candidate) -> f64 {
         1.0 - candidate.left / self.difference
+    }
+
+    /// The share of the counted pixels that a candidate leaves wrong.
+    fn wrong_share(&self, candidate: &Candidate) -> f64 {
+        let seen = self.seen(&candidate.mistakes);
+        let wrong = seen.iter().zip(&candidate.picture).filter(|(a, b)| error(**a, **b) > 0.0).count();
+        wrong as f64 / seen.len().max(1) as f64
     }
 
     /// The pair that explains most, if it explains enough and much more than the best single mistake.

@@ -43,7 +43,6 @@ fn can_be_made(mistake: Mistake, task: &Task) -> bool {
 }
 
 fn of_task(task: &Task) -> Vec<Said> {
-    let start = std::time::Instant::now();
     let oracle = task.oracle();
     let marker = Marker::new(&oracle, task.encoding);
     let right = mistaken_picture(&oracle, Mistakes::NONE, task.encoding);
@@ -52,10 +51,8 @@ fn of_task(task: &Task) -> Vec<Said> {
         .par_iter()
         .map(|&mistake| (mistake, mistaken_picture(&oracle, mistake.into(), task.encoding)))
         .collect();
-    println!("own {:?}", start.elapsed());
     let small: Vec<Mistake> = mistakes.iter().copied().filter(|it| small::can_make(*it)).collect();
     let small: Vec<(Mistake, RgbImage)> = small.par_iter().map(|&it| (it, small::draw(task, it.into()))).collect();
-    println!("small {:?}", start.elapsed());
     let pictures = own.iter().map(|it| ("oracle", it)).chain(small.iter().map(|it| ("small", it)));
     let mut said = Vec::new();
     for (by, (mistake, picture)) in pictures {
@@ -80,7 +77,6 @@ fn of_task(task: &Task) -> Vec<Said> {
             first,
         });
     }
-    println!("said {:?} {}", start.elapsed(), said.len());
     said
 }
 
