@@ -80,6 +80,16 @@ impl Rubric {
         self.points
     }
 
+    /// The points that a mistake without an entry of its own takes away.
+    pub fn mistake(&self) -> f64 {
+        self.mistake
+    }
+
+    /// The most points of a picture that no mistake explains.
+    pub fn unexplained(&self) -> f64 {
+        self.unexplained
+    }
+
     /// The points that a mistake takes away.
     pub fn lost(&self, mistake: Mistake) -> f64 {
         self.own.iter().find(|(known, _)| *known == mistake).map_or(self.mistake, |(_, lost)| *lost)
