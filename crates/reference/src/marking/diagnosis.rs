@@ -17,7 +17,7 @@ use crate::{Image, Oracle};
 /// At most about this many pixels are drawn with every mistake.
 const PIXELS: u32 = 20_000;
 /// Mistakes that explain this share of the difference are named.
-const EXPLAINS: f64 = 0.97;
+const EXPLAINS: f64 = 0.95;
 /// Pairs are tried where the best single mistake leaves this share of the pixels wrong.
 const LEFT_WRONG: f64 = 0.01;
 /// A pair is named where it leaves at most this part of what the best single mistake leaves.
@@ -75,7 +75,7 @@ pub struct Area {
 /// The scene is drawn with each mistake that could change it, when the first wrong picture is diagnosed, at up to about
 /// 20,000 evenly spaced pixels; pixels beside the silhouette of an object are left out, unless only they differ. The share
 /// of the difference that a mistake explains is 1 − e(actual, mistaken)/e(actual, right), where e is the sum of the
-/// differences above one step of 1/255, at most 64 for each channel. Mistakes are named that explain 97 % or more.
+/// differences above one step of 1/255, at most 64 for each channel. Mistakes are named that explain 95 % or more.
 /// Where the best leaves 1 % of the pixels wrong pairs are tried as well, beginning with the eight best mistakes; a pair is
 /// named if it leaves at most a quarter of what the best single one leaves.
 #[derive(Debug)]
@@ -252,13 +252,15 @@ impl<'a> Examination<'a> {
     /// The mistake of a candidate, and those that draw the same picture.
     fn cause(&self, of: &Candidate, singles: &[Candidate]) -> Cause {
         let moves = |candidate: &Candidate| candidate.mistakes.iter().copied().find(|it| is_move(*it));
-        let differs = total(&of.picture, &self.right);
+        // On all pixels: no renderer's edges matter between pictures of the oracle.
+        let all = |mistakes: &[Mistake]| self.pictures.picture(mistakes);
+        let (picture, differs) = (all(&of.mistakes), total(&all(&of.mistakes), &all(&[])));
         let is_like = |other: &[Steps]| {
-            let unlike = other.iter().zip(&of.picture).filter(|(a, b)| error(**a, **b) > 0.0).count();
-            (unlike as f64) < EQUAL_PIXELS * other.len() as f64 && total(other, &of.picture) <= EQUAL_ERROR * differs
+            let unlike = other.iter().zip(&*picture).filter(|(a, b)| error(**a, **b) > 0.0).count();
+            (unlike as f64) < EQUAL_PIXELS * other.len() as f64 && total(other, &picture) <= EQUAL_ERROR * differs
         };
         let equal = |other: &&Candidate| {
-            other.mistakes == of.mistakes || (moves(other) == moves(of) && is_like(&other.picture))
+            other.mistakes == of.mistakes || (moves(other) == moves(of) && is_like(&all(&other.mistakes)))
         };
         let mut alternatives: Vec<Mistake> = of.mistakes.clone();
         let others = singles.iter().filter(equal).flat_map(|other| other.mistakes.iter().copied());

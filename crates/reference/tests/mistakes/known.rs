@@ -95,3 +95,35 @@ fn known_mistakes_are_named_first() {
     }
     assert!(right as f64 >= 0.95 * said.len() as f64);
 }
+
+#[test]
+fn smoothed_edges_do_not_hide_a_mistake() {
+    let pictures = [
+        ("ball", Mistake::GouraudForPhong),
+        ("ball", Mistake::HighlightTimesCosine),
+        ("eggs", Mistake::NormalsByModelMatrix),
+        ("doughnut", Mistake::PhongForGouraud),
+        ("doughnut", Mistake::AmbientByKd),
+        ("facets", Mistake::FlatFromFirstVertex),
+        ("stage", Mistake::SpotExponentIgnored),
+        ("bowl", Mistake::NormalsNotFlipped),
+        ("glare", Mistake::AmbientNotAttenuated),
+        ("crowd", Mistake::ViewerLocal),
+        ("lanterns", Mistake::RangeIgnored),
+        ("road", Mistake::AttenuationOfDiffuseOnly),
+    ];
+    let tasks = tasks::all();
+    let wrong: Vec<String> = pictures
+        .par_iter()
+        .filter_map(|(name, mistake)| {
+            let task = tasks.iter().find(|task| task.name == *name).expect("a task of this name");
+            let picture = small::draw_smoothed(task, (*mistake).into(), 4);
+            let found = Marker::new(&task.oracle(), task.encoding).diagnose(&image(&picture, task.encoding));
+            let found = found.expect("pictures of one size");
+            let first = found.explanations.first();
+            let is_named = first.is_some_and(|it| it.causes.len() == 1 && it.causes[0].alternatives[0] == *mistake);
+            (!is_named).then(|| format!("{mistake} in {name}: {found:?}"))
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}

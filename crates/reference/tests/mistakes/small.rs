@@ -17,14 +17,23 @@ pub(crate) fn can_make(mistake: Mistake) -> bool {
     )
 }
 
-/// Draws the task with these mistakes.
+/// Draws the task with these mistakes, one ray a pixel.
 pub(crate) fn draw(task: &Task, mistakes: Mistakes) -> RgbImage {
+    draw_smoothed(task, mistakes, 1)
+}
+
+/// Draws the task with these mistakes, the mean of `n` × `n` rays a pixel.
+pub(crate) fn draw_smoothed(task: &Task, mistakes: Mistakes, n: u32) -> RgbImage {
     let renderer = Renderer::new(task, mistakes);
     let (width, height) = SIZE;
     let mut picture = RgbImage::new(width, height);
     for row in 0..height {
         for column in 0..width {
-            let color = renderer.pixel(column, row);
+            let mut color = Vec3::ZERO;
+            for sample in 0..n * n {
+                let offset = [sample % n, sample / n].map(|i| (i as f32 + 0.5) / n as f32);
+                color += renderer.ray(column as f32 + offset[0], row as f32 + offset[1]) / (n * n) as f32;
+            }
             let x = if renderer.is(Mistake::Mirrored) { width - 1 - column } else { column };
             let y = if renderer.is(Mistake::UpsideDown) { height - 1 - row } else { row };
             picture.put_pixel(x, y, Rgb(renderer.bytes(color)));
@@ -116,11 +125,12 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    fn pixel(&self, column: u32, row: u32) -> Vec3 {
+    /// The colour at a point of the picture, in pixels from its top left corner.
+    fn ray(&self, column: f32, row: f32) -> Vec3 {
         let (width, height) = (SIZE.0 as f32, SIZE.1 as f32);
         let up = (0.5 * self.task.fov).tan();
-        let x = (2.0 * (column as f32 + 0.5) / width - 1.0) * up * width / height;
-        let y = (1.0 - 2.0 * (row as f32 + 0.5) / height) * up;
+        let x = (2.0 * column / width - 1.0) * up * width / height;
+        let y = (1.0 - 2.0 * row / height) * up;
         let ray = self.view.inverse().transform_vector3(Vec3::new(x, y, -1.0));
         let mut best: Option<Met> = None;
         for (number, triangle) in self.triangles.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! What the rays through chosen pixels meet, and the pictures that are shaded from it.
 
 use bevy_ecs::entity::Entity;
-use bevy_math::UVec2;
+use bevy_math::{DVec3, UVec2};
 use halfway_lighting::equations::divisor;
 use halfway_lighting::{Faces, Intensity};
 use rayon::prelude::*;
@@ -29,16 +29,26 @@ pub(crate) struct HitSheet {
 struct PixelHits {
     at: (u32, u32),
     hits: Vec<Hit>,
-    /// Whether a neighbouring pixel shows another object, another side or the background.
+    /// Whether a neighbouring pixel shows another object, another side or the background, or lies before or behind.
     silhouette: bool,
 }
+
+/// What a pixel shows: a number that is the same for the same sides of the same objects, and the depth of the nearest;
+/// infinite where that is the background.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    number: u64,
+    depth: f64,
+}
+
+/// A surface that lies by this share of its depth before or behind the plane of its neighbour is another one.
+const JUMP: f64 = 0.01;
 
 /// A tile's part of the sheet.
 struct TileHits {
     origin: [u32; 2],
     width: u32,
-    /// What each pixel shows, as a number.
-    seen: Vec<u64>,
+    seen: Vec<Seen>,
     hits: Vec<((u32, u32), Vec<Hit>)>,
 }
 
@@ -50,20 +60,31 @@ impl HitSheet {
         let tiles: Vec<TileHits> =
             (0..open.tiles().count()).into_par_iter().map(|tile| tile_hits(&open, tile, step.max(1))).collect();
         let UVec2 { x: width, y: height } = open.size;
-        let mut seen = vec![0; width as usize * height as usize];
+        let mut seen = vec![Seen { number: 0, depth: f64::INFINITY }; width as usize * height as usize];
         for tile in &tiles {
             for (row, of_row) in tile.seen.chunks(tile.width as usize).enumerate() {
                 let first = (tile.origin[1] as usize + row) * width as usize + tile.origin[0] as usize;
                 seen[first..first + of_row.len()].copy_from_slice(of_row);
             }
         }
-        let differs_beside = |(x, y): (u32, u32)| {
-            let number = |x: u32, y: u32| seen[y as usize * width as usize + x as usize];
+        let is_silhouette = |(x, y): (u32, u32), hits: &[Hit]| {
+            let seen = |x: u32, y: u32| seen[y as usize * width as usize + x as usize];
             let around = |at: u32, size: u32| at.saturating_sub(1)..(at + 2).min(size);
-            around(y, height).any(|row| around(x, width).any(|column| number(column, row) != number(x, y)))
+            let plane = plane(&open.scene, hits);
+            around(y, height).any(|row| {
+                around(x, width).any(|column| {
+                    let there = seen(column, row);
+                    let jumps = plane.is_some_and(|plane| {
+                        let expected = depth_on(&open.scene, plane, (column, row));
+                        (there.depth - expected).abs() > JUMP * expected.abs()
+                    });
+                    there.number != seen(x, y).number || jumps
+                })
+            })
         };
         let pixels = tiles.into_iter().flat_map(|tile| tile.hits);
-        let pixels = pixels.map(|(at, hits)| PixelHits { at, hits, silhouette: differs_beside(at) }).collect();
+        let pixels: Vec<PixelHits> =
+            pixels.map(|(at, hits)| PixelHits { at, silhouette: is_silhouette(at, &hits), hits }).collect();
         Self { open, pixels }
     }
 
@@ -72,7 +93,8 @@ impl HitSheet {
         self.pixels.iter().map(|pixel| pixel.at)
     }
 
-    /// Whether each pixel lies beside one that shows another object, another side or the background.
+    /// Whether each pixel lies beside one that shows another object, another side or the background, or on an edge where
+    /// one part of an object hides another.
     pub(crate) fn silhouettes(&self) -> impl ExactSizeIterator<Item = bool> {
         self.pixels.iter().map(|pixel| pixel.silhouette)
     }
@@ -152,7 +174,7 @@ fn tile_hits(open: &Oracle, tile: usize, step: u32) -> TileHits {
             }
         }
     }
-    let seen = hits.iter().map(|hits| shown_number(scene, hits)).collect();
+    let seen = hits.iter().map(|hits| shown(scene, hits)).collect();
     let chosen = |number: usize| {
         let at = (origin[0] + number as u32 % width, origin[1] + number as u32 / width);
         ([at.0, at.1].iter().all(|at| at % step == step / 2)).then_some((number, at))
@@ -162,11 +184,29 @@ fn tile_hits(open: &Oracle, tile: usize, step: u32) -> TileHits {
     TileHits { origin, width, seen, hits }
 }
 
-/// A number that is the same for pixels that show the same sides of the same objects.
-fn shown_number(scene: &OracleScene, hits: &[Hit]) -> u64 {
+fn shown(scene: &OracleScene, hits: &[Hit]) -> Seen {
     let layers = layers(scene, hits, Mistakes::NONE);
     let number = |hit: &Hit| 2 * hit.solid as u64 + u64::from(hit.front) + 1;
-    layers.visible(scene).fold(0, |all: u64, hit| all.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(number(hit)))
+    let nothing = Seen { number: 0, depth: f64::INFINITY };
+    layers.visible(scene).fold(nothing, |all, hit| Seen {
+        number: all.number.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(number(hit)),
+        depth: all.depth.min(hit.depth),
+    })
+}
+
+/// A point and the normal of the nearest visible triangle on a ray.
+fn plane(scene: &OracleScene, hits: &[Hit]) -> Option<[DVec3; 2]> {
+    let layers = layers(scene, hits, Mistakes::NONE);
+    let nearest = layers.visible(scene).min_by(|a, b| a.depth.total_cmp(&b.depth))?;
+    let (triangle, _) = nearest.on_triangle()?;
+    let [a, b, c] = scene.solids[nearest.solid].lit_triangle(triangle);
+    Some([a, (b - a).cross(c - a)])
+}
+
+/// The depth at which the ray through a pixel's centre meets a plane.
+fn depth_on(scene: &OracleScene, [point, normal]: [DVec3; 2], (x, y): (u32, u32)) -> f64 {
+    let ray = scene.view.ray(scene.view.at(f64::from(x) + 0.5, f64::from(y) + 0.5));
+    normal.dot(point - ray.origin) / normal.dot(ray.direction)
 }
 
 /// The visible hits among those of a ray, under mistakes with sides and depths.
