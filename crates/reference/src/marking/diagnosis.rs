@@ -27,6 +27,8 @@ const BEGINNINGS: usize = 8;
 /// Pictures are equal that differ in fewer of their pixels, and by less of what one of them differs from the right one.
 const EQUAL_PIXELS: f64 = 0.005;
 const EQUAL_ERROR: f64 = 0.02;
+/// How much of the difference beside silhouettes counts where mistakes are ranked.
+const BESIDE_WEIGHT: f64 = 0.05;
 /// The share of the difference on either side that an area leaves out.
 const BESIDE: f64 = 0.02;
 
@@ -114,59 +116,68 @@ struct Examination<'a> {
     size: (u32, u32),
     /// All of its pixels.
     actual: Vec<Steps>,
-    /// The numbers of the pixels that count.
-    counted: Vec<usize>,
+    /// The numbers of the pixels: those that count, then those beside silhouettes.
+    order: Vec<usize>,
+    /// How many count.
+    counted: usize,
+    /// The right picture, in that order.
     right: Vec<Steps>,
-    /// The counted pixels as they are.
+    /// The examined one, in that order.
     as_is: Vec<Steps>,
-    /// The difference from the right picture.
+    /// The difference of the two on the pixels that count.
     difference: f64,
 }
 
 /// Mistakes and the picture with them.
 struct Candidate {
     mistakes: Vec<Mistake>,
-    /// The counted pixels.
+    /// The pixels in the examination's order.
     picture: Vec<Steps>,
-    /// What is left of the difference.
+    /// What is left of the difference on the pixels that count.
     left: f64,
+    /// The same with a little of the difference beside silhouettes, which decides between mistakes that are equal
+    /// elsewhere.
+    rank: f64,
 }
 
 impl<'a> Examination<'a> {
     fn new(pictures: &'a MistakenPictures, actual: &Image) -> Self {
         let bytes = actual.pixels().par_iter().map(|i| encoded(*i, pictures.encoding, Mistakes::NONE)).collect();
-        let inside = pictures.sheet.silhouettes().enumerate().filter(|(_, beside)| !beside);
+        let silhouettes: Vec<bool> = pictures.sheet.silhouettes().collect();
+        let (inside, beside): (Vec<usize>, Vec<usize>) =
+            (0..silhouettes.len()).partition(|number| !silhouettes[*number]);
         let mut it = Self {
             pictures,
             size: actual.dimensions(),
             actual: bytes,
-            counted: inside.map(|(number, _)| number).collect(),
+            counted: inside.len(),
+            order: inside.into_iter().chain(beside).collect(),
             right: Vec::new(),
             as_is: Vec::new(),
             difference: 0.0,
         };
-        it.measure();
+        it.right = it.picture(&[]);
+        it.as_is = it.moved(Mistakes::NONE);
+        it.difference = it.counted_error(&it.as_is, &it.right);
         if it.difference == 0.0 {
-            it.counted = (0..pictures.places.len()).collect();
-            it.measure();
+            it.counted = it.order.len();
+            it.difference = it.counted_error(&it.as_is, &it.right);
         }
         it
     }
 
-    /// Compares with the right picture.
-    fn measure(&mut self) {
-        self.right = self.picture(&[]);
-        self.as_is = self.moved(Mistakes::NONE);
-        self.difference = total(&self.as_is, &self.right);
+    /// The difference of two pictures on the pixels that count.
+    fn counted_error(&self, a: &[Steps], b: &[Steps]) -> f64 {
+        total(&a[..self.counted], &b[..self.counted])
     }
 
-    /// The examined picture's pixels, where somebody who makes these mistakes puts the counted ones.
+    /// The examined picture's pixels, from where somebody who makes these mistakes puts them.
     fn moved(&self, mistakes: Mistakes) -> Vec<Steps> {
         let pixel = |number: &usize| {
             let (x, y) = put(self.pictures.places[*number], self.size, mistakes);
             self.actual[y as usize * self.size.0 as usize + x as usize]
         };
-        self.counted.iter().map(pixel).collect()
+        self.order.iter().map(pixel).collect()
     }
 
     fn seen(&self, mistakes: &[Mistake]) -> Cow<'_, [Steps]> {
@@ -177,16 +188,18 @@ impl<'a> Examination<'a> {
         }
     }
 
-    /// The counted pixels of a picture with mistakes.
+    /// The pixels of a picture with mistakes.
     fn picture(&self, mistakes: &[Mistake]) -> Vec<Steps> {
         let picture = self.pictures.picture(mistakes);
-        self.counted.iter().map(|number| picture[*number]).collect()
+        self.order.iter().map(|number| picture[*number]).collect()
     }
 
     fn candidate(&self, mistakes: &[Mistake]) -> Candidate {
         let picture = self.picture(mistakes);
-        let left = total(&self.seen(mistakes), &picture);
-        Candidate { mistakes: mistakes.to_vec(), picture, left }
+        let seen = self.seen(mistakes);
+        let left = self.counted_error(&seen, &picture);
+        let rank = left + BESIDE_WEIGHT * (total(&seen, &picture) - left);
+        Candidate { mistakes: mistakes.to_vec(), picture, left, rank }
     }
 
     fn diagnosis(self) -> Diagnosis {
@@ -197,7 +210,7 @@ impl<'a> Examination<'a> {
         let possible = self.pictures.possible();
         let mut singles: Vec<Candidate> = possible.par_iter().map(|mistake| self.candidate(&[*mistake])).collect();
         singles.retain(|single| self.shows(single));
-        singles.sort_by(|a, b| a.left.total_cmp(&b.left));
+        singles.sort_by(|a, b| a.rank.total_cmp(&b.rank));
         let pair = singles.first().filter(|best| self.wrong_share(best) >= LEFT_WRONG);
         let pair = pair.and_then(|_| self.best_pair(&singles));
         let mut explanations = Vec::new();
@@ -224,7 +237,7 @@ impl<'a> Examination<'a> {
 
     /// Whether a mistake changes the picture of this scene.
     fn shows(&self, candidate: &Candidate) -> bool {
-        candidate.mistakes.iter().any(|it| is_move(*it)) || total(&candidate.picture, &self.right) > 0.0
+        candidate.mistakes.iter().any(|it| is_move(*it)) || self.counted_error(&candidate.picture, &self.right) > 0.0
     }
 
     fn share(&self, candidate: &Candidate) -> f64 {
@@ -234,8 +247,9 @@ impl<'a> Examination<'a> {
     /// The share of the counted pixels that a candidate leaves wrong.
     fn wrong_share(&self, candidate: &Candidate) -> f64 {
         let seen = self.seen(&candidate.mistakes);
-        let wrong = seen.iter().zip(&candidate.picture).filter(|(a, b)| error(**a, **b) > 0.0).count();
-        wrong as f64 / seen.len().max(1) as f64
+        let pairs = seen.iter().zip(&candidate.picture).take(self.counted);
+        let wrong = pairs.filter(|(a, b)| error(**a, **b) > 0.0).count();
+        wrong as f64 / self.counted.max(1) as f64
     }
 
     /// The pair that explains most, if it explains enough and much more than the best single mistake.
@@ -244,7 +258,7 @@ impl<'a> Examination<'a> {
         let pairs: Vec<[Mistake; 2]> =
             first.flat_map(|(i, a)| singles[i + 1..].iter().map(move |b| [a.mistakes[0], b.mistakes[0]])).collect();
         let pairs = pairs.par_iter().map(|pair| self.candidate(pair));
-        let best = pairs.min_by(|a, b| a.left.total_cmp(&b.left))?;
+        let best = pairs.min_by(|a, b| a.rank.total_cmp(&b.rank))?;
         let enough = self.share(&best) >= EXPLAINS && best.left <= PAIR_LEAVES * singles.first()?.left;
         enough.then_some(best)
     }
@@ -271,10 +285,10 @@ impl<'a> Examination<'a> {
     fn explanation(&self, candidate: &Candidate, causes: Vec<Cause>) -> Explanation {
         let after = self.seen(&candidate.mistakes);
         let gain = |i: usize| error(self.as_is[i], self.right[i]) - error(after[i], candidate.picture[i]);
-        let gains: Vec<f64> = (0..self.counted.len()).map(|i| gain(i).max(0.0)).collect();
+        let gains: Vec<f64> = (0..self.counted).map(|i| gain(i).max(0.0)).collect();
         let mut by_object: HashMap<Option<Entity>, f64> = HashMap::new();
         for (i, gain) in gains.iter().enumerate().filter(|(_, gain)| **gain > 0.0) {
-            *by_object.entry(self.pictures.sheet.object(self.counted[i])).or_default() += gain;
+            *by_object.entry(self.pictures.sheet.object(self.order[i])).or_default() += gain;
         }
         let object = by_object.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
         Explanation {
@@ -290,7 +304,7 @@ impl<'a> Examination<'a> {
         let ends = |of: fn((u32, u32)) -> u32| {
             let mut along: Vec<(u32, f64)> = gains
                 .iter()
-                .zip(&self.counted)
+                .zip(&self.order)
                 .map(|(gain, number)| (of(self.pictures.places[*number]), *gain))
                 .collect();
             along.sort_unstable_by_key(|(at, _)| *at);
@@ -312,7 +326,7 @@ impl<'a> Examination<'a> {
     /// The share of right pixels among those that show an object or should.
     fn right_share(&self) -> f64 {
         let (mut right, mut all) = (0_usize, 0_usize);
-        for (i, number) in self.counted.iter().enumerate() {
+        for (i, number) in self.order[..self.counted].iter().enumerate() {
             let is_right = error(self.as_is[i], self.right[i]) <= 0.0;
             if !is_right || self.pictures.sheet.object(*number).is_some() {
                 all += 1;
