@@ -9,6 +9,7 @@ mod command {
     mod chart;
     mod lines;
     mod looks;
+    mod marking;
     mod models;
     mod pictures;
     mod reference;

@@ -6,6 +6,7 @@
 
 mod drawing;
 mod equations;
+mod marking;
 mod mesh;
 mod pictures;
 mod reference;

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use halfway::prelude::*;
-use halfway::reference::marking::{Diagnosis, Marker, Rubric};
-use halfway::reference::metrics::{Bars, Verdict, judge};
-use halfway::reference::{Image, Oracle};
+use halfway::reference::Image;
+use halfway::reference::marking::{ExamineError, Examined, Rubric, examine};
+use halfway::reference::metrics::Bars;
 use halfway::scene::options::remove_what_is_laid_over;
 
 use crate::drawing::{DrawingArgs, SizeArgs};
@@ -55,13 +55,9 @@ enum ReportFormat {
 struct Report {
     picture: String,
     size: UVec2,
-    verdict: Verdict,
-    /// `None` for a picture that passes.
-    diagnosis: Option<Diagnosis>,
+    examined: Examined,
     mark: f64,
     points: f64,
-    /// The names of the objects that explanations are about.
-    names: Vec<(Entity, String)>,
 }
 
 pub(crate) fn run(args: &MarkArgs) -> Result<(), Failure> {
@@ -82,7 +78,7 @@ pub(crate) fn run(args: &MarkArgs) -> Result<(), Failure> {
         Some(ReportFormat::Gradescope) => println!("{}", reports::gradescope(&report)),
         Some(ReportFormat::Submitty) => println!("{}", reports::submitty(&report)),
     }
-    if report.passes() {
+    if report.examined.passes() {
         Ok(())
     } else {
         let (file, mark, points) = (&report.picture, reports::points(report.mark), reports::points(report.points));
@@ -105,33 +101,18 @@ fn report(args: &MarkArgs, mut input: SceneInput, file: &Path, rubric: &Rubric) 
         bars => bars,
     };
     let actual = Image::from_decoded(&picture, encoding);
-    let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(bars.are_clamped());
     let progress = Progress::for_tiles(1);
-    let expected = oracle.draw_with(&|done, of| progress.tile(0, done, of));
-    let expected = expected.map_err(|stopped| Failure::new(STOPPED, stopped))?;
-    // Whether it passes is enough: the share of right pixels comes from the diagnosis.
-    let verdict = judge(&oracle, &expected, &actual, bars.until_wrong()).map_err(text)?;
+    let told = |done: u32, of: u32| progress.tile(0, done, of);
+    let examined = examine(app.world_mut(), &actual, encoding, bars, &told).map_err(|error| match error {
+        ExamineError::Stopped(stopped) => Failure::new(STOPPED, stopped),
+        other => text(other),
+    })?;
     drop(progress);
-    let diagnosis =
-        if verdict.is_within() { None } else { Some(Marker::new(&oracle, encoding).diagnose(&actual).map_err(text)?) };
-    let mark = diagnosis.as_ref().map_or(rubric.points(), |diagnosis| rubric.mark(diagnosis));
-    let explanations = diagnosis.iter().flat_map(|it| it.explanations.iter().chain(&it.nearest));
-    let objects = explanations.filter_map(|it| it.object);
-    let names = objects.filter_map(|object| {
-        let name = app.world().get::<bevy_ecs::name::Name>(object)?;
-        Some((object, name.to_string()))
-    });
-    let names = names.collect();
-    Ok(Report { picture: file.display().to_string(), size, verdict, diagnosis, mark, points: rubric.points(), names })
-}
-
-impl Report {
-    fn passes(&self) -> bool {
-        self.diagnosis.is_none()
-    }
-
-    fn name(&self, object: Option<Entity>) -> Option<&str> {
-        let object = object?;
-        self.names.iter().find(|(entity, _)| *entity == object).map(|(_, name)| name.as_str())
-    }
+    Ok(Report {
+        picture: file.display().to_string(),
+        size,
+        mark: examined.mark(rubric),
+        points: rubric.points(),
+        examined,
+    })
 }

@@ -17,11 +17,11 @@ pub(super) fn points(points: f64) -> String {
 pub(super) fn lines(report: &Report) -> String {
     let mut text = String::new();
     let [width, height] = report.size.to_array();
-    let passes = if report.passes() { "passes" } else { "differs" };
+    let passes = if report.examined.passes() { "passes" } else { "differs" };
     let (mark, of) = (points(report.mark), points(report.points));
     // Writing to a string cannot fail.
     let _ = writeln!(text, "{}, {width} × {height} pixels: {passes}, {mark} of {of} points", report.picture);
-    let Some(diagnosis) = &report.diagnosis else { return text };
+    let Some(diagnosis) = &report.examined.diagnosis else { return text };
     let _ = writeln!(text, "{} % of the pixels inside objects are right", percent(diagnosis.right));
     for (number, explanation) in diagnosis.explanations.iter().enumerate() {
         if number > 0 {
@@ -56,7 +56,7 @@ fn describe(text: &mut String, report: &Report, explanation: &Explanation) {
         }
     }
     let Area { from, to } = explanation.area;
-    let on = report.name(explanation.object).map_or(String::new(), |name| format!(", most of it on {name}"));
+    let on = report.examined.object(explanation).map_or(String::new(), |name| format!(", most of it on {name}"));
     let share = percent(explanation.share);
     let _ = writeln!(
         text,
@@ -67,7 +67,7 @@ fn describe(text: &mut String, report: &Report, explanation: &Explanation) {
 
 /// Everything, under halfway's own keys.
 pub(super) fn json(report: &Report) -> Value {
-    let diagnosis = report.diagnosis.as_ref();
+    let diagnosis = report.examined.diagnosis.as_ref();
     let explained = |explanation: &Explanation| {
         let mistake = |mistake: &halfway::reference::mistakes::Mistake| json!({ "name": mistake.name(), "explanation": mistake.explanation(), "remedy": mistake.remedy() });
         let cause = |cause: &Cause| cause.alternatives.iter().map(mistake).collect::<Vec<_>>();
@@ -75,19 +75,19 @@ pub(super) fn json(report: &Report) -> Value {
             "causes": explanation.causes.iter().map(cause).collect::<Vec<_>>(),
             "share": explanation.share,
             "area": { "from": explanation.area.from, "to": explanation.area.to },
-            "object": report.name(explanation.object),
+            "object": report.examined.object(explanation),
         })
     };
     json!({
         "picture": report.picture,
         "size": report.size.to_array(),
-        "passes": report.passes(),
+        "passes": report.examined.passes(),
         "mark": report.mark,
         "points": report.points,
         "right": diagnosis.map_or(1.0, |it| it.right),
         "explanations": diagnosis.map_or_else(Vec::new, |it| it.explanations.iter().map(explained).collect()),
         "nearest": diagnosis.and_then(|it| it.nearest.as_ref()).map(explained),
-        "verdict": crate::figures::verdict(&report.verdict),
+        "verdict": crate::figures::verdict(&report.examined.verdict),
     })
 }
 
@@ -98,7 +98,7 @@ pub(super) fn gradescope(report: &Report) -> Value {
             "name": report.picture,
             "score": report.mark,
             "max_score": report.points,
-            "status": if report.passes() { "passed" } else { "failed" },
+            "status": if report.examined.passes() { "passed" } else { "failed" },
             "output": lines(report),
         }],
     })
@@ -106,7 +106,8 @@ pub(super) fn gradescope(report: &Report) -> Value {
 
 /// The output of Submitty's custom validators: a score from 0 to 1.
 pub(super) fn submitty(report: &Report) -> Value {
-    let score = if report.points > 0.0 { report.mark / report.points } else { f64::from(u8::from(report.passes())) };
-    let status = if report.passes() { "success" } else { "failure" };
+    let score =
+        if report.points > 0.0 { report.mark / report.points } else { f64::from(u8::from(report.examined.passes())) };
+    let status = if report.examined.passes() { "success" } else { "failure" };
     json!({ "score": score, "message": lines(report), "status": status })
 }
