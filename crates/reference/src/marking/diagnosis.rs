@@ -221,7 +221,7 @@ impl<'a> Examination<'a> {
             };
             explanations.push(self.explanation(pair, pair.mistakes.iter().map(|it| set(*it)).collect()));
         }
-        let mut named: Vec<Mistake> = Vec::new();
+        let mut named: Vec<Mistake> = pair.iter().flat_map(|pair| pair.mistakes.iter().copied()).collect();
         for single in &singles {
             if self.share(single) < EXPLAINS || single.mistakes.iter().any(|it| named.contains(it)) {
                 continue;

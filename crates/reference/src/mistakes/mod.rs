@@ -156,7 +156,7 @@ mistakes! {
         "Lights behind a surface take light away, since n·l below 0 is not clamped."
         "Use max(n·l, 0).";
     CosineAbsolute "cosine-absolute"
-        "Surfaces are lit from behind as well, since |n·l| is used."
+        "Surfaces are lit from behind as well, since the absolute value of n·l is used."
         "Use max(n·l, 0).";
     LightNotUnit "light-not-unit"
         "The vector toward a light is not brought to unit length."
