@@ -11,7 +11,6 @@ use halfway::lighting::Choices;
 use halfway::lighting::equations::srgb_encoded;
 use halfway::output::ContactSheet;
 use halfway::prelude::*;
-use halfway::reference::marking::Rubric;
 use halfway::render::{EmptyReason, why_empty};
 use halfway::scene::options::{
     SceneOptions, parse, remove_what_is_laid_over, scene_of_models, unknown_material, views,
@@ -24,10 +23,9 @@ use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 
-use crate::marking;
 use crate::mesh::Mesh as PyMesh;
 use crate::pictures::{Given, Pixels as PyPixels, floats, to_python};
-use crate::reference::{Judged, examine_given, judge_given, reference_picture};
+use crate::reference::{Judged, judge_given, reference_picture};
 use crate::work::{Failure, detached};
 
 /// A scene with its meshes, spawned into an App that is kept from picture to picture.
@@ -291,36 +289,6 @@ impl Drawing {
             let is_seen = recipe.camera.is_none() && !recipe.options.is_framing();
             Ok(is_seen && spawned.place_camera(&entry, app.world_mut()))
         })
-    }
-
-    /// Marks a picture: the points, and the mistakes that explain how it differs. `rubric` has the entries that are not
-    /// as by default: `points`, `mistake`, `unexplained`; and `mistakes`, by name.
-    fn mark<'py>(
-        &self,
-        py: Python<'py>,
-        pixels: Given,
-        size: (u32, u32),
-        most: f64,
-        rubric: HashMap<String, f64>,
-        mistakes: Vec<(String, f64)>,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let picture = pixels.picture(py, size)?;
-        let recipe = detached(py, || Ok(self.stage().recipe.clone()))?;
-        let default = Rubric::default();
-        let entry = |key: &str, otherwise: f64| rubric.get(key).copied().unwrap_or(otherwise);
-        let (points, mistake) = (entry("points", default.points()), entry("mistake", default.mistake()));
-        let rubric = Rubric::new(points, mistake, entry("unexplained", default.unexplained()));
-        let rubric = mistakes
-            .iter()
-            .try_fold(rubric.map_err(Failure::input)?, |rubric, (name, lost)| rubric.with_mistake(name, *lost))
-            .map_err(Failure::input)?;
-        let examined = detached(py, move || {
-            let mut recipe = Recipe { renderer: Renderer::Reference, ..recipe };
-            remove_what_is_laid_over(&mut recipe.scene);
-            recipe.scene.size = [size.0, size.1];
-            examine_given(&recipe, &picture, most)
-        })?;
-        marking::report(py, &examined, &rubric)
     }
 
     /// Judges a picture by the reference renderer.

@@ -6,7 +6,6 @@
 
 mod drawing;
 mod equations;
-mod marking;
 mod mesh;
 mod pictures;
 mod reference;

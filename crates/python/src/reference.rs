@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use halfway::prelude::*;
 use halfway::record::{FrameToDraw, ReferenceDrawing};
 use halfway::reference::Oracle;
-use halfway::reference::marking::{Examined, examine};
 use halfway::reference::metrics::{Bars, judge};
 
 use crate::drawing::Recipe;
@@ -41,32 +40,18 @@ pub(crate) struct Judged {
     pub(crate) sentence: String,
 }
 
-/// The bars for a picture whose pixels may differ by `most` steps of 1/255.
-fn bars(picture: &Picture, encoding: Encoding, most: f64) -> Bars {
-    match picture {
-        Picture::Byte(_) => Bars { most, worst: most, equal: 0.0, ..Bars::bytes(encoding) },
-        Picture::Float(_) => Bars::FLOAT,
-    }
-}
-
-/// Judges a picture of the scene, and finds its mistakes.
-pub(crate) fn examine_given(recipe: &Recipe, picture: &Picture, most: f64) -> Result<Examined, Failure> {
-    let (mut app, _) = recipe.play()?;
-    app.update();
-    let encoding = recipe.scene.output;
-    let (actual, bars) = (intensities(picture, encoding), bars(picture, encoding, most));
-    examine(app.world_mut(), &actual, encoding, bars, &|_, _| ControlFlow::Continue(())).map_err(Failure::work)
-}
-
 /// Judges a picture of the scene; no pixel may differ by more than `most` steps of 1/255 from every colour that it may
 /// show.
 pub(crate) fn judge_given(recipe: &Recipe, picture: &Picture, most: f64) -> Result<Judged, Failure> {
     let (mut app, _) = recipe.play()?;
     app.update();
     let encoding = recipe.scene.output;
-    let bars = bars(picture, encoding, most);
+    let (is_clamped, bars) = match picture {
+        Picture::Byte(_) => (true, Bars { most, worst: most, equal: 0.0, ..Bars::bytes(encoding) }),
+        Picture::Float(_) => (false, Bars::FLOAT),
+    };
     let size = UVec2::from_array(recipe.scene.size);
-    let oracle = Oracle::new(app.world_mut(), size).map_err(Failure::work)?.with_clamping(bars.are_clamped());
+    let oracle = Oracle::new(app.world_mut(), size).map_err(Failure::work)?.with_clamping(is_clamped);
     let found = judge(&oracle, &oracle.draw(), &intensities(picture, encoding), bars).map_err(Failure::input)?;
     Ok(Judged {
         is_within: found.is_within(),

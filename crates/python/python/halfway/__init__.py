@@ -14,13 +14,13 @@ from ._mesh import Mesh
 from ._parts import Camera, DirectionalLight, HemisphereLight, Light, Material, PointLight, SpotLight
 from ._picture import Comparison, Picture, compare, save_animation
 from ._picture import open_picture as open
-from ._render import animate, mark, reference, render, sheet, turntable, verify
+from ._render import animate, reference, render, sheet, turntable, verify
 from ._scene import Scene, SceneCamera, SceneLight, SceneObject, SceneWarning
 from .equations import blinn_phong, phong
 
 __all__ = [
     "OPTIONS", "OUTPUTS", "PRESETS", "Camera", "Comparison", "DirectionalLight", "HemisphereLight", "Light", "Material",
     "Mesh", "Options", "Picture", "PointLight", "Scene", "SceneCamera", "SceneLight", "SceneObject", "SceneWarning",
-    "SpotLight", "__version__", "animate", "blinn_phong", "check", "compare", "equations", "mark", "open", "phong", "reference",
-    "render", "save_animation", "sheet", "turntable", "verify",
+    "SpotLight", "__version__", "animate", "blinn_phong", "check", "compare", "equations", "open", "phong", "reference", "render",
+    "save_animation", "sheet", "turntable", "verify",
 ]

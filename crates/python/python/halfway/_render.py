@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, Unpack, overload
 
 import numpy.typing as npt
 
 from ._arguments import Options
 from ._mesh import Mesh, placed
-from ._picture import Picture, open_picture
+from ._picture import Picture
 from ._scene import Outputs, Scene
 
 
@@ -89,11 +89,3 @@ def verify(picture: Any, scene: Any, **arguments: Any) -> dict[str, Any]:
     return scene_of(scene).verify(picture, **arguments)
 
 
-
-
-def mark(scene: Any, picture: Any, rubric: Mapping[str, Any] | None = None, **arguments: Any) -> dict[str, Any]:
-    """Marks a picture that somebody drew of a scene, and finds the mistakes that explain how it differs: see
-    `Scene.mark`. `picture` may be a path."""
-    if isinstance(picture, (str, os.PathLike)):
-        picture = open_picture(picture)
-    return scene_of(scene).mark(picture, rubric, **arguments)

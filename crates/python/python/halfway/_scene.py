@@ -506,25 +506,6 @@ class Scene:
         judged: dict[str, Any] = drawing.judge(np.ascontiguousarray(np.asarray(given)), given._size, float(max))
         return judged
 
-    def mark(
-        self, picture: Any, rubric: Mapping[str, Any] | None = None, *, camera: Any = None, max: int = 1,
-        **options: Unpack[Options],
-    ) -> dict[str, Any]:
-        """Marks a picture that somebody drew of this scene. It passes or not as by `verify`; where it does not, the result
-        names the mistakes that explain the difference, the best explanation first.
-
-        `rubric` has the points for a right picture (`points`, 100 by default), those that each mistake takes away
-        (`mistake`, 20), the most for a picture that no mistake explains (`unexplained`, 50), and `mistakes`, a mapping from
-        names of mistakes to the points that these take away. The keys of the result are those of `halfway mark --json`:
-        `passes`, `mark`, `points`, `right`, `explanations` and `nearest`."""
-        given = as_picture(picture)
-        drawing, _ = self._drawing(given._size, camera, options, False)
-        entries, mistakes = _rubric(rubric or {})
-        marked: dict[str, Any] = drawing.mark(
-            np.ascontiguousarray(np.asarray(given)), given._size, float(max), entries, mistakes,
-        )
-        return marked
-
     def compare(self, picture: Any, **options: Any) -> Comparison:
         """Compares a picture with the reference renderer's."""
         given = as_picture(picture)
@@ -532,27 +513,6 @@ class Scene:
 
     def _repr_png_(self) -> bytes:
         return self.render(size=(640, 480)).png()
-
-
-def _rubric(rubric: Mapping[str, Any]) -> tuple[dict[str, float], list[tuple[str, float]]]:
-    """The numbers of a rubric, and those of single mistakes."""
-    keys = ("points", "mistake", "unexplained", "mistakes")
-    if not isinstance(rubric, Mapping):
-        raise TypeError(f"rubric: {rubric!r}; expected a mapping with {', '.join(keys)}")
-    for key in rubric:
-        if key not in keys:
-            raise ValueError(f"rubric: unknown key {key!r}; expected {', '.join(keys)}")
-    mistakes = rubric.get("mistakes", {})
-    if not isinstance(mistakes, Mapping):
-        raise TypeError(f"rubric: mistakes: {mistakes!r}; expected a mapping from names to points")
-    entries = {key: _points(key, rubric[key]) for key in keys[:3] if key in rubric}
-    return entries, [(str(name), _points(f"mistakes: {name}", lost)) for name, lost in mistakes.items()]
-
-
-def _points(key: str, points: Any) -> float:
-    if isinstance(points, bool) or not isinstance(points, (int, float)):
-        raise TypeError(f"rubric: {key}: {points!r}; expected a number of points")
-    return float(points)
 
 
 def _expect_frames(frames: int) -> None:
