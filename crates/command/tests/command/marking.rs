@@ -35,6 +35,10 @@ fn right_pictures_of_the_cpu_pass_and_are_not_accused() {
     let folder = folder("mark_right");
     for scene in fs::read_dir(asset("examples/scenes")).expect("the example scenes are there") {
         let path = scene.expect("the folder can be read").path();
+        // Lines are drawn over pictures, and are no part of what is marked.
+        if ["drawing.json", "lines_and_points.json"].iter().any(|name| path.ends_with(name)) {
+            continue;
+        }
         let text = fs::read_to_string(&path).expect("the scene can be read");
         let path = path.to_string_lossy();
         let camera = if text.contains("viewport") { &["--camera", "0"][..] } else { &[] };
@@ -161,7 +165,7 @@ fn homework(test: &str, options: &str) -> std::path::PathBuf {
         fs::copy(&file, folder.join(file.file_name().expect("a file"))).expect("it can be copied");
     }
     let scene = r#"{"size": [96, 72], "camera": {"position": [1, 2, 6], "target": [0, 1, 0]},
-        "lights": [{"point": {}, "position": [2, 3, 4]}],
+        "lights": [{"kind": "point", "position": [2, 3, 4]}],
         "objects": [{"mesh": {"teapot": {"divisions": 4}}, "material": "brass"}]}"#;
     fs::write(folder.join("scene.json"), scene).expect("the folder can be written");
     let program = env!("CARGO_BIN_EXE_halfway");
