@@ -60,9 +60,9 @@ impl MistakenPictures {
             let possible = |it: &Mistake| could_show(*it, self.encoding) && self.sheet.could_show(*it);
             let possible: Vec<Mistake> = Mistake::ALL.iter().copied().filter(possible).collect();
             // Drawn here, by all threads for each: pixels of one picture share what its vertices have been shaded with.
-            possible.iter().for_each(|it| {
-                self.single(*it);
-            });
+            for mistake in &possible {
+                self.single(*mistake);
+            }
             possible
         })
     }

@@ -131,7 +131,10 @@ fn view_defaults(world: &mut World, size: UVec2) -> Result<ViewDefaults, OracleE
     })
 }
 
-fn lights(world: &mut World, view: &PictureView) -> Result<(Color, Vec<Light<f64>>, Vec<Entity>), OracleError> {
+/// The ambient light, and the lights with their entities.
+type PlacedLights = (Color, Vec<Light<f64>>, Vec<Entity>);
+
+fn lights(world: &mut World, view: &PictureView) -> Result<PlacedLights, OracleError> {
     let global = world.get_resource::<GlobalAmbient>().copied().unwrap_or_default();
     global.validate().map_err(|source| OracleError::Invalid { entity: "resource".into(), source })?;
 

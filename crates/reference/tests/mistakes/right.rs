@@ -47,7 +47,7 @@ fn right_pictures_of_either_renderer_pass() {
         for (by, picture) in [("the oracle", own), ("the small renderer", small::draw(&task, Mistakes::NONE))] {
             assert!(passes(&task, &picture), "{} by {by}", task.name);
             let found = marker.diagnose(&image(&picture, task.encoding)).expect("pictures of one size");
-            assert!(found.explanations.is_empty() && found.right == 1.0, "{} by {by}: {found:?}", task.name);
+            assert!(found.explanations.is_empty() && found.right >= 1.0, "{} by {by}: {found:?}", task.name);
         }
     }
 }

@@ -223,9 +223,9 @@ fn layers(scene: &OracleScene, hits: &[Hit], mistakes: Mistakes) -> Layers {
     let mut layers = Layers::default();
     if mistakes.has(Mistake::DepthTestMissing) || mistakes.has(Mistake::DepthTestReversed) {
         let (blended, opaque): (Vec<Hit>, Vec<Hit>) = seen.partition(|hit| scene.solids[hit.solid].blend);
-        let opaque = opaque.into_iter().filter(|hit| !scene.is_cut(hit));
+        let mut opaque = opaque.into_iter().filter(|hit| !scene.is_cut(hit));
         let shown = if mistakes.has(Mistake::DepthTestMissing) {
-            opaque.last()
+            opaque.next_back()
         } else {
             opaque.max_by(|a, b| a.depth.total_cmp(&b.depth))
         };

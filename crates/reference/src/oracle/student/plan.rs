@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use bevy_ecs::entity::Entity;
 use bevy_math::{DMat3, DVec3};
-use halfway_lighting::equations::vector::{add, dot, normalize, scale, sub};
+use halfway_lighting::equations::vector::{add, normalize, scale, sub};
 use halfway_lighting::equations::{Coefficients, Eye, Light, Point, Transcendental};
 use halfway_lighting::lights::LightSource;
 use halfway_lighting::{Faces, Frequency, Reflectance, Terms};
@@ -211,7 +211,7 @@ fn ambient(scene: &OracleScene, lights: &[Light<f64>], mistakes: Mistakes) -> (C
         return ([0.0; 3], [0.0; 3]);
     }
     let of_lights = steady(lights);
-    let changed = dot(of_lights, of_lights) != dot(steady(&scene.lights), steady(&scene.lights));
+    let changed = of_lights.map(f64::to_bits) != steady(&scene.lights).map(f64::to_bits);
     let times = if mistakes.has(Mistake::AmbientForEachLight) { lights.len() as f64 } else { 1.0 };
     if mistakes.has(Mistake::AmbientNotTimesKa) {
         return (of_lights, scale(global(), times));
@@ -352,9 +352,10 @@ pub(super) fn could_show(scene: &OracleScene, mistake: Mistake) -> bool {
         M::PhongForGouraud => at(Frequency::Vertex),
         M::FlatForSmooth => at(Frequency::Vertex) || at(Frequency::Fragment),
         M::GouraudForFlat | M::PhongForFlat | M::FlatFromFirstVertex | M::FlatFromLastVertex => at(Frequency::Triangle),
-        M::PhongForBlinn => reflects(Reflectance::BlinnPhong) || reflects(Reflectance::BlinnPhongMatched),
+        M::PhongForBlinn | M::HalfwayNotUnit => {
+            reflects(Reflectance::BlinnPhong) || reflects(Reflectance::BlinnPhongMatched)
+        }
         M::BlinnForPhong | M::ReflectionReversed => reflects(Reflectance::Phong),
-        M::HalfwayNotUnit => reflects(Reflectance::BlinnPhong) || reflects(Reflectance::BlinnPhongMatched),
         M::ExponentNotMatched => reflects(Reflectance::BlinnPhongMatched),
         M::ViewNotUnit | M::ViewerAtInfinity => matches!(scene.viewer, Eye::Local(_)),
         M::ViewerLocal => matches!(scene.viewer, Eye::Infinite(_)),

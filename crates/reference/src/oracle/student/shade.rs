@@ -202,8 +202,8 @@ impl Student<'_> {
     ) -> TermSums {
         let (colors, arrival, point) = match light {
             Light::Directional(it) => (&it.colors, self.parallel(it.toward, surface), None),
-            Light::Point(it) => (&it.colors, self.from_point(it, None, surface), Some(it)),
-            Light::Spot(it) => (&it.point.colors, self.from_point(&it.point, Some(&it.cone), surface), Some(&it.point)),
+            Light::Point(it) => (&it.colors, self.radiating(it, None, surface), Some(it)),
+            Light::Spot(it) => (&it.point.colors, self.radiating(&it.point, Some(&it.cone), surface), Some(&it.point)),
             Light::Hemisphere(_) => {
                 let terms = light_terms(surface, material, light, &self.viewer, reflectance);
                 return TermSums { ambient: [0.0; 3], diffuse: terms.diffuse, specular: terms.specular };
@@ -233,7 +233,7 @@ impl Student<'_> {
     }
 
     /// Rays from a position, through a cone if there is one.
-    fn from_point(&self, light: &Point<f64>, cone: Option<&ConeTerms<f64>>, surface: &ShadedPoint<f64>) -> Arrival {
+    fn radiating(&self, light: &Point<f64>, cone: Option<&ConeTerms<f64>>, surface: &ShadedPoint<f64>) -> Arrival {
         let offset = sub(light.position, surface.position);
         let (distance, from_eye) = (length(offset), length(surface.position));
         let least = f64::from(GRAZING);
