@@ -19,6 +19,7 @@ mod info;
 mod input;
 mod lines;
 mod look;
+mod mark;
 mod picture;
 mod progress;
 mod reading;
@@ -77,6 +78,12 @@ enum Command {
     /// Pixels on edges, where rounding decides which side is visible, are judged separately. Exit code 4 if another
     /// differs by more than --max allows.
     Verify(verify::VerifyArgs),
+    /// Mark a picture that somebody drew of a scene, and find the mistake that explains how it differs
+    ///
+    /// It passes or differs as by verify --picture. Where it differs the scene is drawn with each of a list of mistakes,
+    /// such as normals that are not normalised, and with two at once; those are named that explain the difference, the
+    /// best first, with where they do. A rubric says how many points they take away. Exit code 4 if the picture differs.
+    Mark(mark::MarkArgs),
     /// Print the contents of models, and their problems
     Info(info::InfoArgs),
     /// Write a model in another format, mended, refined, simplified or with other normals; print what is lost
@@ -140,6 +147,7 @@ fn main() -> ExitCode {
         Command::View(args) => view::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Mark(args) => mark::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Convert(args) => convert::run(&args),
         #[cfg(feature = "measure")]

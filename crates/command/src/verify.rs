@@ -9,6 +9,7 @@ use halfway::reference::metrics::{Bars, Scale, Verdict, difference, judge, judge
 use halfway::reference::{Image, Oracle};
 use halfway::render::RenderError;
 use halfway::scene::options::remove_what_is_laid_over;
+use image::DynamicImage;
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::{DIFFERENT, Failure, STOPPED};
@@ -143,11 +144,7 @@ fn judge_adapter(args: &VerifyArgs, mut input: SceneInput) -> Result<(), Failure
 fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Result<(), Failure> {
     let encoding = input.scene.output;
     let picture = picture::decoded(file)?;
-    let size = UVec2::new(picture.width(), picture.height());
-    if let Some(wanted) = args.size.size.filter(|wanted| *wanted != size) {
-        let [found, wanted] = [size, wanted].map(|size| format!("{} × {}", size.x, size.y));
-        return Err(format!("{}: the picture has {found} pixels; expected {wanted}", file.display()).into());
-    }
+    let size = picture_size(file, &picture, args.size)?;
     input.scene.size = size.to_array();
     let mut app = App::new();
     app.add_plugins(HalfwayPlugins::reference());
@@ -178,6 +175,16 @@ fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Resul
     if found.is_within() { Ok(()) } else { Err(Failure::new(DIFFERENT, format!("{}: {found}", file.display()))) }
 }
 
+/// The size of a given picture, which has to be the one that is asked for, if one is.
+pub(crate) fn picture_size(file: &Path, picture: &DynamicImage, asked: SizeArgs) -> Result<UVec2, Failure> {
+    let size = UVec2::new(picture.width(), picture.height());
+    if let Some(wanted) = asked.size.filter(|wanted| *wanted != size) {
+        let [found, wanted] = [size, wanted].map(|size| format!("{} × {}", size.x, size.y));
+        return Err(format!("{}: the picture has {found} pixels; expected {wanted}", file.display()).into());
+    }
+    Ok(size)
+}
+
 /// Checks that either picture is within its bar for the worst pixel.
 fn verdict(max: u8, bytes: &Verdict, float: Option<&Verdict>) -> Result<(), Failure> {
     let different = |what: String| Err(Failure::new(DIFFERENT, what));
@@ -197,7 +204,7 @@ fn verdict(max: u8, bytes: &Verdict, float: Option<&Verdict>) -> Result<(), Fail
 }
 
 /// Spawns the scene into the App and finishes its plugins. All frames show one moment.
-fn set_up(app: &mut App, input: &SceneInput) -> Result<(), Failure> {
+pub(crate) fn set_up(app: &mut App, input: &SceneInput) -> Result<(), Failure> {
     input.spawn(app)?;
     let world = app.world_mut();
     let lines: Vec<Entity> = world.query_filtered::<Entity, With<Lines3d>>().iter(world).collect();
@@ -259,7 +266,7 @@ impl Drawn {
     }
 }
 
-fn text(error: impl std::fmt::Display) -> Failure {
+pub(crate) fn text(error: impl std::fmt::Display) -> Failure {
     error.to_string().into()
 }
 

@@ -10,6 +10,7 @@ mod command {
     mod demos;
     mod lines;
     mod looks;
+    mod marking;
     mod models;
     mod pictures;
     mod reference;

@@ -4,7 +4,9 @@
 
 mod image;
 mod interpolation;
+pub mod marking;
 pub mod metrics;
+pub mod mistakes;
 mod oracle;
 mod surface;
 

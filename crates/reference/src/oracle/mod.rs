@@ -3,7 +3,7 @@
 //! `scene` transforms the world's entities into eye space (`view`, `solid`), `raster` intersects the ray through a
 //! point of the picture, `shade` computes the colour of a hit and `shows` other values, `layers` blends the hits of a ray,
 //! `draw` does so for every pixel and `probe` for any point. `possible` lists the other colours that a pixel may show, for
-//! the judge.
+//! the judge. `student` draws the scene with mistakes.
 
 mod draw;
 mod environment;
@@ -21,6 +21,7 @@ mod scene;
 mod shade;
 mod shows;
 mod solid;
+mod student;
 mod view;
 
 use std::sync::OnceLock;
@@ -35,6 +36,7 @@ pub use mode::Mode;
 pub use possible::{ColorRange, Possible};
 pub use probe::{Nearest, Probe};
 pub use shows::Shows;
+pub(crate) use student::HitSheet;
 
 use grid::VertexGrid;
 use raster::Tiles;
@@ -160,7 +162,7 @@ impl Oracle {
     }
 
     /// The policy for the finished picture.
-    fn policy(&self) -> Intensity {
+    pub(crate) fn policy(&self) -> Intensity {
         if self.scene.shows == Shows::Color { self.scene.intensity } else { Intensity::Clamp }
     }
 
@@ -175,6 +177,11 @@ impl Oracle {
             }
             policy => image.mapped(|channel| policy.toned(channel)),
         }
+    }
+
+    /// Width and height of the picture in pixels.
+    pub(crate) fn size(&self) -> (u32, u32) {
+        self.size.into()
     }
 
     /// The camera's coverage samples a pixel, for the judge.

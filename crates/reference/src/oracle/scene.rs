@@ -34,6 +34,8 @@ pub(super) struct OracleScene {
     /// Ga, and La of the lights that do not attenuate it.
     pub(super) ambient: Color,
     pub(super) lights: Vec<Light<f64>>,
+    /// The entities of the lights, in their order.
+    pub(super) light_entities: Vec<Entity>,
     pub(super) environment: Option<OracleEnvironment>,
     /// From the nearest to the farthest object between the near and the far plane.
     pub(super) depth_span: f64,
@@ -45,7 +47,7 @@ impl OracleScene {
     pub(super) fn from_world(world: &mut World, size: UVec2) -> Result<Self, OracleError> {
         require_propagation(world)?;
         let defaults = view_defaults(world, size)?;
-        let (ambient, lights) = lights(world, &defaults.view)?;
+        let (ambient, lights, light_entities) = lights(world, &defaults.view)?;
         let mut environment = OracleEnvironment::from_world(world, &defaults.view)?;
         if let (Load::Keep, Some(environment)) = (defaults.load, &mut environment) {
             environment.sky = None;
@@ -64,6 +66,7 @@ impl OracleScene {
             intensity,
             ambient,
             lights,
+            light_entities,
             environment,
             depth_span,
             solids,
@@ -128,14 +131,20 @@ fn view_defaults(world: &mut World, size: UVec2) -> Result<ViewDefaults, OracleE
     })
 }
 
-fn lights(world: &mut World, view: &PictureView) -> Result<(Color, Vec<Light<f64>>), OracleError> {
+/// The ambient light, and the lights with their entities.
+type PlacedLights = (Color, Vec<Light<f64>>, Vec<Entity>);
+
+fn lights(world: &mut World, view: &PictureView) -> Result<PlacedLights, OracleError> {
     let global = world.get_resource::<GlobalAmbient>().copied().unwrap_or_default();
     global.validate().map_err(|source| OracleError::Invalid { entity: "resource".into(), source })?;
 
-    let (mut lights, mut refused) = (Vec::new(), None);
+    let (mut lights, mut entities, mut refused) = (Vec::new(), Vec::new(), None);
     let mut queries = SystemState::<LightQueries>::new(world);
     queries.get(world).expect(ALWAYS).visit(|entity, name, light, at| match light.placed(&InEyeSpace { view, at }) {
-        Ok(light) => lights.push(light),
+        Ok(light) => {
+            lights.push(light);
+            entities.push(entity);
+        }
         Err(source) => {
             refused.get_or_insert_with(|| OracleError::Invalid { entity: label(entity, name), source });
         }
@@ -143,7 +152,7 @@ fn lights(world: &mut World, view: &PictureView) -> Result<(Color, Vec<Light<f64
     if let Some(error) = refused {
         return Err(error);
     }
-    Ok((lights.iter().fold(global.ga(), |sum, light| add(sum, light.steady_ambient())), lights))
+    Ok((lights.iter().fold(global.ga(), |sum, light| add(sum, light.steady_ambient())), lights, entities))
 }
 
 /// The frame of a light's entity in eye space.

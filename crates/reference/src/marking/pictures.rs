@@ -1,0 +1,96 @@
+//! The pictures of a scene with mistakes.
+
+use std::borrow::Cow;
+use std::sync::OnceLock;
+
+use halfway_lighting::Encoding;
+use rayon::prelude::*;
+
+use super::steps::{Steps, could_show, encoded, is_of_picture};
+use crate::Oracle;
+use crate::mistakes::{Mistake, Mistakes};
+use crate::oracle::HitSheet;
+
+/// Chosen pixels of a scene, and the pictures of them with each mistake.
+#[derive(Debug)]
+pub(super) struct MistakenPictures {
+    pub(super) sheet: HitSheet,
+    pub(super) encoding: Encoding,
+    /// The columns and rows of the pixels.
+    pub(super) places: Vec<(u32, u32)>,
+    right: Drawn,
+    /// The pictures with single mistakes, drawn when they are needed first.
+    singles: Vec<OnceLock<Drawn>>,
+    possible: OnceLock<Vec<Mistake>>,
+}
+
+/// The chosen pixels of a picture.
+#[derive(Debug)]
+struct Drawn {
+    /// Empty where they are those of the right picture.
+    intensities: Vec<[f64; 3]>,
+    bytes: Vec<Steps>,
+}
+
+impl Drawn {
+    fn new(sheet: &HitSheet, encoding: Encoding, mistakes: Mistakes) -> Self {
+        let intensities = sheet.drawn(mistakes);
+        let bytes = intensities.par_iter().map(|i| encoded(*i, encoding, mistakes)).collect();
+        Self { intensities, bytes }
+    }
+}
+
+impl MistakenPictures {
+    /// For every `step`-th pixel of every `step`-th row.
+    pub(super) fn new(oracle: &Oracle, step: u32, encoding: Encoding) -> Self {
+        let sheet = HitSheet::new(oracle, step);
+        Self {
+            places: sheet.places().collect(),
+            right: Drawn::new(&sheet, encoding, Mistakes::NONE),
+            sheet,
+            encoding,
+            singles: Mistake::ALL.iter().map(|_| OnceLock::new()).collect(),
+            possible: OnceLock::new(),
+        }
+    }
+
+    /// The mistakes that could change pictures of the scene.
+    pub(super) fn possible(&self) -> &[Mistake] {
+        self.possible.get_or_init(|| {
+            let possible = |it: &Mistake| could_show(*it, self.encoding) && self.sheet.could_show(*it);
+            let possible: Vec<Mistake> = Mistake::ALL.iter().copied().filter(possible).collect();
+            // Drawn here, by all threads for each: pixels of one picture share what its vertices have been shaded with.
+            for mistake in &possible {
+                self.single(*mistake);
+            }
+            possible
+        })
+    }
+
+    fn single(&self, mistake: Mistake) -> &Drawn {
+        self.singles[mistake as usize].get_or_init(|| {
+            if is_of_picture(mistake) {
+                let bytes = self.encoded(&self.right.intensities, mistake.into());
+                return Drawn { intensities: Vec::new(), bytes };
+            }
+            Drawn::new(&self.sheet, self.encoding, mistake.into())
+        })
+    }
+
+    fn encoded(&self, intensities: &[[f64; 3]], mistakes: Mistakes) -> Vec<Steps> {
+        intensities.par_iter().map(|i| encoded(*i, self.encoding, mistakes)).collect()
+    }
+
+    /// The pixels of the picture with none, one or more mistakes.
+    pub(super) fn picture(&self, mistakes: &[Mistake]) -> Cow<'_, [Steps]> {
+        let all: Mistakes = mistakes.iter().copied().collect();
+        let of_scene: Vec<Mistake> = mistakes.iter().copied().filter(|it| !is_of_picture(*it)).collect();
+        match (mistakes, &of_scene[..]) {
+            ([], _) => Cow::Borrowed(&self.right.bytes),
+            (&[single], _) => Cow::Borrowed(&self.single(single).bytes),
+            (_, []) => Cow::Owned(self.encoded(&self.right.intensities, all)),
+            (_, &[single]) => Cow::Owned(self.encoded(&self.single(single).intensities, all)),
+            _ => Cow::Owned(self.encoded(&self.sheet.drawn(of_scene.into_iter().collect()), all)),
+        }
+    }
+}
