@@ -6,7 +6,7 @@ use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::{length, toward};
-use crate::equations::{COINCIDENT, Coefficients, Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint};
+use crate::equations::{Arrival, COINCIDENT, Coefficients, Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint};
 use crate::falloff::{Attenuation, ConeTerms, attenuation, number, range_window};
 use crate::field::{self, Described, Field, FieldPlace, rgb};
 use crate::invalid::{Fields, InvalidValue};
@@ -180,9 +180,8 @@ pub struct Point<T> {
 }
 
 impl<T: Real> Point<T> {
-    /// Its direction and strength at a point. If the light is at the point itself ([`COINCIDENT`]) l is n and the
-    /// distance 0.
-    pub(super) fn arriving_at(&self, surface: &ShadedPoint<T>) -> Incidence<T> {
+    /// Its way to a point. If the light is at the point itself ([`COINCIDENT`]) l is n and the distance 0.
+    pub(super) fn arriving_at(&self, surface: &ShadedPoint<T>) -> Arrival<T> {
         let least = T::from_f64(GRAZING.into());
         let from_eye = length(surface.position);
         let (l, d, grazing) = match toward(surface.position, self.position) {
@@ -190,7 +189,8 @@ impl<T: Real> Point<T> {
             _ => (surface.normal, T::zero(), T::zero()),
         };
         let window = self.range.map_or(T::one(), |range| range_window(d, range));
-        Incidence { l, grazing, weight: attenuation(self.attenuation, d) * window }
+        let attenuation = attenuation(self.attenuation, d);
+        Arrival { l, distance: Some(d), grazing, attenuation, window, cos_phi: None, spot: T::one() }
     }
 
     /// The light that arrives with this incidence.
@@ -295,8 +295,12 @@ impl Point<f64> {
 }
 
 impl<T: Real> LightSource<T> for Point<T> {
-    fn incidence(&self, surface: &ShadedPoint<T>) -> Option<Incidence<T>> {
+    fn arrival(&self, surface: &ShadedPoint<T>) -> Option<Arrival<T>> {
         Some(self.arriving_at(surface))
+    }
+
+    fn colors(&self) -> Option<Colors<T>> {
+        Some(self.colors)
     }
 
     fn irradiance(
@@ -306,7 +310,7 @@ impl<T: Real> LightSource<T> for Point<T> {
         reflectance: Reflectance,
         material: &Coefficients<T>,
     ) -> Irradiance<T> {
-        self.arriving(&self.arriving_at(surface), (surface, view), (reflectance, material))
+        self.arriving(&self.arriving_at(surface).incidence(), (surface, view), (reflectance, material))
     }
 
     fn steady_ambient(&self) -> [T; 3] {

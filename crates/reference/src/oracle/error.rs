@@ -79,3 +79,8 @@ pub(super) const ALWAYS: &str = "queries can be had of every world";
 pub(super) fn label(entity: Entity, name: Option<&Name>) -> String {
     name.map_or_else(|| format!("entity {entity}"), |name| format!("\"{name}\""))
 }
+
+/// An entity's name, or its number.
+pub(super) fn plain_name(entity: Entity, name: Option<&Name>) -> String {
+    name.map_or_else(|| format!("entity {entity}"), |name| name.as_str().to_owned())
+}
