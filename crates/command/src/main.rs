@@ -11,6 +11,7 @@ mod convert;
 mod drawing;
 mod edges;
 mod empty;
+mod explain;
 mod failure;
 mod figures;
 mod framing;
@@ -76,6 +77,10 @@ enum Command {
     /// Pixels on edges, where rounding decides which side is visible, are judged separately. Exit code 4 if another
     /// differs by more than --max allows.
     Verify(verify::VerifyArgs),
+    /// Explain a pixel: its surfaces, every light and term there, their sum, its clamping and encoding, in 64-bit arithmetic
+    ///
+    /// What is printed comes from the reference renderer as it draws the pixel. Vectors are in eye space.
+    Explain(explain::ExplainArgs),
     /// Print the contents of models, and their problems
     Info(info::InfoArgs),
     /// Write a model in another format, mended, refined, simplified or with other normals; print what is lost
@@ -133,6 +138,7 @@ fn main() -> ExitCode {
         Command::View(args) => view::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Explain(args) => explain::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Convert(args) => convert::run(&args),
         #[cfg(feature = "measure")]

@@ -65,6 +65,21 @@ pub enum OracleError {
         /// The most pixels that are drawn.
         limit: u64,
     },
+    /// A pixel outside the picture.
+    #[error(
+        "({x}, {y}) lies outside the picture of {width} × {height} pixels; expected a column from 0 to {} and a row from 0 \
+         to {}", width - 1, height - 1
+    )]
+    Outside {
+        /// The column.
+        x: u32,
+        /// The row.
+        y: u32,
+        /// The picture's width in pixels.
+        width: u32,
+        /// The picture's height in pixels.
+        height: u32,
+    },
 }
 
 /// The drawing was stopped from outside.

@@ -2,13 +2,14 @@
 //!
 //! `scene` transforms the world's entities into eye space (`view`, `solid`), `raster` intersects the ray through a
 //! point of the picture, `shade` computes the colour of a hit and `shows` other values, `layers` blends the hits of a ray,
-//! `draw` does so for every pixel and `probe` for any point. `possible` lists the other colours that a pixel may show, for
+//! `draw` does so for every pixel, `probe` for any point, and `explained` says how a pixel came to its colour. `possible` lists the other colours that a pixel may show, for
 //! the judge.
 
 mod draw;
 mod environment;
 mod environment_terms;
 mod error;
+mod explained;
 mod grid;
 mod layers;
 mod mapped;

@@ -8,9 +8,9 @@ use halfway_asset::Assets;
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::lights::{LightFrame, LightQueries, LightSource};
 use halfway_lighting::{
-    AlphaMode, BackMaterial, Camera, Edges, Encoding, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Load, Material,
-    Propagation, Reflectance, Samples, Shading, Shown, VertexColors, Viewport, current_camera, light_direction,
-    light_position, light_up, propagation,
+    AlphaMode, BackMaterial, Camera, Edges, Encoding, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Load,
+    Material, Propagation, Reflectance, Samples, Shading, Shown, VertexColors, Viewport, current_camera,
+    light_direction, light_position, light_up, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{MapKind, Maps, Pyramid, SolidTexture, SurfaceMap, Texture};
@@ -37,8 +37,8 @@ pub(super) struct OracleScene {
     /// Ga, and La of the lights that do not attenuate it.
     pub(super) ambient: Color,
     pub(super) lights: Vec<Light<f64>>,
-    /// The names of the lights, in their order.
-    pub(super) light_names: Vec<String>,
+    /// The entities and the names of the lights, in their order.
+    pub(super) light_names: Vec<(Entity, String)>,
     pub(super) environment: Option<OracleEnvironment>,
     /// From the nearest to the farthest object between the near and the far plane.
     pub(super) depth_span: f64,
@@ -141,7 +141,7 @@ struct SceneLights {
     global_ambient: Color,
     ambient: Color,
     lights: Vec<Light<f64>>,
-    names: Vec<String>,
+    names: Vec<(Entity, String)>,
 }
 
 fn lights(world: &mut World, view: &PictureView) -> Result<SceneLights, OracleError> {
@@ -153,7 +153,7 @@ fn lights(world: &mut World, view: &PictureView) -> Result<SceneLights, OracleEr
     queries.get(world).expect(ALWAYS).visit(|entity, name, light, at| match light.placed(&InEyeSpace { view, at }) {
         Ok(light) => {
             lights.push(light);
-            names.push(plain_name(entity, name));
+            names.push((entity, plain_name(entity, name)));
         }
         Err(source) => {
             refused.get_or_insert_with(|| OracleError::Invalid { entity: label(entity, name), source });

@@ -244,7 +244,7 @@ fn geometric(solid: &Solid, triangle: u32) -> Color {
 /// The parts of an intensity, and the factors of images and solids, which multiply them at the point itself.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IntensityParts {
-    /// ka·(Ga + ΣLa), La of the lights that do not attenuate it.
+    /// ka·(Ga + Σ La), La of the lights that do not attenuate it.
     pub(super) unlit: TermSums,
     /// The terms of the lights.
     pub(super) lit: TermSums,
