@@ -176,6 +176,10 @@ fn directional_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Mater
         self.validate()
     }
 
+    fn ambient_alone(&self) -> Self {
+        Self { diffuse: LinearRgba::BLACK, specular: LinearRgba::BLACK, ..*self }
+    }
+
     fn placed(&self, frame: &impl LightFrame) -> Result<Light<f64>, InvalidValue> {
         self.along(frame.forward()?)
     }

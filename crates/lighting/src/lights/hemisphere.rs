@@ -168,6 +168,10 @@ fn hemisphere_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Materi
         self.validate()
     }
 
+    fn ambient_alone(&self) -> Self {
+        Self { sky: LinearRgba::BLACK, ground: LinearRgba::BLACK }
+    }
+
     fn placed(&self, frame: &impl LightFrame) -> Result<Light<f64>, InvalidValue> {
         self.toward(frame.up()?)
     }

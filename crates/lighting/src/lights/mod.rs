@@ -68,6 +68,10 @@ pub trait LightKind: Described + Debug + PartialEq {
     /// The first field that is outside the range it documents.
     fn validate(&self) -> Result<(), InvalidValue>;
 
+    /// The same light with its ambient colour alone.
+    #[must_use]
+    fn ambient_alone(&self) -> Self;
+
     /// The light at the transform of its entity.
     ///
     /// # Errors
@@ -433,6 +437,14 @@ macro_rules! light_kinds {
         )*
 
         impl LightComponent {
+            /// The same light with its ambient colour alone: what it adds to the ambient term.
+            #[must_use]
+            pub fn ambient_alone(&self) -> Self {
+                match self {
+                    $(Self::$kind(light) => Self::$kind(light.ambient_alone())),*
+                }
+            }
+
             /// The light where its entity stands.
             ///
             /// # Errors

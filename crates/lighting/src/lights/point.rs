@@ -345,6 +345,10 @@ fn point_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Material, t
         self.validate()
     }
 
+    fn ambient_alone(&self) -> Self {
+        Self { diffuse: LinearRgba::BLACK, specular: LinearRgba::BLACK, ..*self }
+    }
+
     fn placed(&self, frame: &impl LightFrame) -> Result<Light<f64>, InvalidValue> {
         Ok(self.at(frame.position()?))
     }

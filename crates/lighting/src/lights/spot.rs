@@ -181,6 +181,10 @@ fn spot_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Material, te
         self.validate()
     }
 
+    fn ambient_alone(&self) -> Self {
+        Self { light: self.light.ambient_alone(), ..*self }
+    }
+
     fn placed(&self, frame: &impl LightFrame) -> Result<Light<f64>, InvalidValue> {
         let position = frame.position()?;
         if self.cone.is_none() { Ok(self.light.at(position)) } else { self.at(position, frame.forward()?) }
