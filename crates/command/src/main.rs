@@ -27,6 +27,7 @@ mod scalars;
 #[cfg(feature = "measure")]
 mod scenery;
 mod steps;
+mod terms;
 mod thumbnail;
 mod tolerance;
 mod verify;
@@ -81,6 +82,11 @@ enum Command {
     ///
     /// What is printed comes from the reference renderer as it draws the pixel. Vectors are in eye space.
     Explain(explain::ExplainArgs),
+    /// Draw each term of each light by itself, and their sums, on one sheet with captions
+    ///
+    /// A row a light with its ambient, diffuse and specular term and their sum; a row without lights: the global ambient
+    /// light with an environment's, emission with the background, and what an environment mirrors; a row of sums.
+    Terms(terms::TermsArgs),
     /// Print the contents of models, and their problems
     Info(info::InfoArgs),
     /// Write a model in another format, mended, refined, simplified or with other normals; print what is lost
@@ -139,6 +145,7 @@ fn main() -> ExitCode {
         Command::Compare(args) => compare::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Explain(args) => explain::run(&args),
+        Command::Terms(args) => terms::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Convert(args) => convert::run(&args),
         #[cfg(feature = "measure")]

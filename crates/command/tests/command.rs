@@ -7,11 +7,13 @@ mod command {
     mod bench;
     #[cfg(feature = "measure")]
     mod chart;
+    mod explain;
     mod lines;
     mod looks;
     mod models;
     mod pictures;
     mod reference;
+    mod terms;
     mod tolerances;
 
     use std::fs;

@@ -1,5 +1,7 @@
 //! Random pixels of random scenes, explained.
 
+#![expect(clippy::float_cmp, reason = "the same functions give the same bits")]
+
 use std::path::Path;
 use std::time::Duration;
 
@@ -47,8 +49,8 @@ fn sum(colors: impl IntoIterator<Item = [f64; 3]>) -> [f64; 3] {
     colors.into_iter().fold([0.0; 3], |sum, color| [0, 1, 2].map(|k| sum[k] + color[k]))
 }
 
-const TERMS: [(&str, fn(&TermColors) -> [f64; 3]); 3] =
-    [("ambient", |terms| terms.ambient), ("diffuse", |terms| terms.diffuse), ("specular", |terms| terms.specular)];
+/// The names of the terms in their order.
+const TERMS: [&str; 3] = ["ambient", "diffuse", "specular"];
 
 /// Multiplies the terms of a light from their factors.
 fn check_light(light: &ExplainedLight, point: &ExplainedPoint) {
@@ -60,7 +62,7 @@ fn check_light(light: &ExplainedLight, point: &ExplainedPoint) {
     let diffuse = weighted(faces * weight * way.n_dot_l.max(0.0), mul(material.kd, colors.ld));
     close("diffuse", light.terms.diffuse, diffuse);
     close("specular", light.terms.specular, weighted(faces * weight * way.power, mul(material.ks, colors.ls)));
-    let ambient = if light.is_steady || light.terms.ambient == mul(material.ka, colors.la) { 1.0 } else { weight };
+    let ambient = if light.is_steady { 1.0 } else { weight };
     close("ambient", light.terms.ambient, weighted(ambient, mul(material.ka, colors.la)));
     if way.n_dot_l > 0.0 && way.exponent > 0.0 {
         let power = way.cosine.clamp(0.0, 1.0).powf(way.exponent);
@@ -72,25 +74,25 @@ fn check_light(light: &ExplainedLight, point: &ExplainedPoint) {
 fn check_layer(layer: &ExplainedLayer) {
     for point in &layer.points {
         point.lights.iter().for_each(|light| check_light(light, point));
-        for (name, of) in TERMS {
-            close(name, sum(point.lights.iter().map(|light| of(&light.counted))), of(&point.sums));
+        for (k, name) in TERMS.into_iter().enumerate() {
+            close(name, sum(point.lights.iter().map(|light| light.counted.each()[k])), point.sums.each()[k]);
         }
     }
     let factors = &layer.factors;
     let surface = mul(factors.color, factors.solid);
     let occluded = surface.map(|channel| channel * factors.occlusion);
     let all = [occluded, surface, factors.specular];
-    for ((name, of), factor) in TERMS.into_iter().zip(all) {
+    for (k, (name, factor)) in TERMS.into_iter().zip(all).enumerate() {
         let points = layer.points.iter().map(|point| {
             let weight = point.corner.map_or(1.0, |(_, weight)| weight);
-            of(&point.sums).map(|channel| channel * weight)
+            point.sums.each()[k].map(|channel| channel * weight)
         });
-        close(name, sum(points), of(&layer.lights));
+        close(name, sum(points), layer.lights.each()[k]);
         let steady = if name == "ambient" { layer.steady_ambient } else { [0.0; 3] };
-        let before = sum([steady, of(&layer.lights), of(&layer.environment)]);
-        close(name, mul(factor, before), of(&layer.sums));
+        let before = sum([steady, layer.lights.each()[k], layer.environment.each()[k]]);
+        close(name, mul(factor, before), layer.sums.each()[k]);
     }
-    let parts = TERMS.map(|(_, of)| of(&layer.sums)).into_iter().chain([layer.emission]);
+    let parts = layer.sums.each().into_iter().chain([layer.emission]);
     close("intensity", sum(parts), layer.intensity);
 }
 
