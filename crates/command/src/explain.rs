@@ -54,8 +54,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
     app.finish();
     app.cleanup();
     app.update();
-    let side = app.world().get::<Camera>(spawned.camera).map_or(1, |camera| camera.samples.count().isqrt());
-    let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(true).with_supersampling(side);
+    let oracle = Oracle::new(app.world_mut(), size)?.with_clamping(true).with_samples_of_camera();
     let [x, y] = args.at;
     let explained = oracle.explain(x, y).map_err(|error| Failure::new(2, format!("--at: {error}")))?;
     if args.json {

@@ -49,7 +49,7 @@ fn a_pixel_is_explained_as_text_json_and_latex() {
         assert_eq!(line.matches('{').count(), line.matches('}').count(), "{line}");
     }
     assert!(lines[1..lines.len() - 2].iter().all(|line| line.ends_with(" \\\\")), "{latex}");
-    assert!(latex.contains("lamp\\_1") && latex.contains("I_{d,1} &= \\mathrm{att}_1\\,k_d"), "{latex}");
+    assert!(latex.contains("lamp\\_1") && latex.contains("I_{d,1} &= \\mathrm{att}_{1}\\,k_d"), "{latex}");
 }
 
 #[test]

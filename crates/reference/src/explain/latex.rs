@@ -1,11 +1,9 @@
 //! An explanation as LaTeX.
 
-use std::fmt::Write as _;
-
 use halfway_lighting::{Encoding, Frequency, Intensity, Reflectance};
 
 use super::numbers::{self, is_black};
-use super::{ExplainedLayer, ExplainedLight, ExplainedPoint, Explanation, shading_name};
+use super::{ExplainedLayer, ExplainedLight, ExplainedPoint, Explanation, LightWay, shading_name};
 
 impl Explanation {
     /// One `align*` block, which needs the package `amsmath`. Colours are (r, g, b), and their products are channel by
@@ -45,6 +43,16 @@ impl Lines {
     /// `left = a = b …`
     fn equal(&mut self, left: &str, right: &[String]) {
         self.0.push(format!("{left} &= {}", right.join(" = ")));
+    }
+
+    /// Several equations in one line.
+    fn row(&mut self, equations: &[(String, String)]) {
+        let Some(((left, right), others)) = equations.split_first() else { return };
+        let mut line = format!("{left} &= {right}");
+        for (left, right) in others {
+            line.extend([",\\quad ", left, " = ", right]);
+        }
+        self.0.push(line);
     }
 
     fn block(&self) -> String {
@@ -111,59 +119,62 @@ impl Lines {
             self.equal(&format!("I_{{d,{i}}}"), &[mixture.to_owned(), color(light.terms.diffuse)]);
             return;
         };
+        let mut way_of = vec![(format!("\\mathbf{{l}}_{{{i}}}"), vector(way.l))];
         let mut weight = String::new();
-        if !is_black(colors.la) {
-            self.equal(&format!("L_{{a,{i}}}"), &[given(colors.la)]);
-        }
-        self.equal(&format!("\\mathbf{{l}}_{i}"), &[vector(way.l)]);
+        let mut factor = |name: &str, value: f64, way_of: &mut Vec<(String, String)>| {
+            let symbol = format!("\\mathrm{{{name}}}_{{{i}}}");
+            weight += &symbol;
+            weight += "\\,";
+            way_of.push((symbol, scalar(value)));
+        };
         if let Some(distance) = way.distance {
-            let (d, att) = (scalar(distance), scalar(way.attenuation));
-            self.0.push(format!("d_{i} &= {d},\\quad \\mathrm{{att}}_{i} = {att}"));
-            let _ = write!(weight, "\\mathrm{{att}}_{i}\\,");
+            way_of.push((format!("d_{{{i}}}"), scalar(distance)));
+            factor("att", way.attenuation, &mut way_of);
         }
-        if way.window < 1.0 {
-            self.equal(&format!("\\mathrm{{range}}_{i}"), &[scalar(way.window)]);
-            let _ = write!(weight, "\\mathrm{{range}}_{i}\\,");
+        if way.has_range() {
+            factor("range", way.window, &mut way_of);
         }
         if let Some(cos_phi) = way.cos_phi {
-            let (cos, spot) = (scalar(cos_phi), scalar(way.spot));
-            self.0.push(format!("\\cos\\varphi_{i} &= {cos},\\quad \\mathrm{{spot}}_{i} = {spot}"));
-            let _ = write!(weight, "\\mathrm{{spot}}_{i}\\,");
+            way_of.push((format!("\\cos\\varphi_{{{i}}}"), scalar(cos_phi)));
+            factor("spot", way.spot, &mut way_of);
         }
+        self.row(&way_of);
+        let colors_of =
+            [("a", colors.la), ("d", colors.ld), ("s", colors.ls)].into_iter().filter(|(_, it)| !is_black(*it));
+        self.row(&colors_of.map(|(name, it)| (format!("L_{{{name},{i}}}"), given(it))).collect::<Vec<_>>());
         if !light.is_steady && !is_black(colors.la) {
             let term = format!("{weight}k_a\\, L_{{a,{i}}}");
             self.equal(&format!("I_{{a,{i}}}"), &[term, color(light.terms.ambient)]);
         }
-        let facing = scalar(way.n_dot_l);
+        let facing = format!("\\mathbf{{n}}\\cdot\\mathbf{{l}}_{{{i}}}");
         if way.is_behind {
-            self.0.push(format!(
-                "\\mathbf{{n}}\\cdot\\mathbf{{l}}_{i} &= {facing} \\quad\\text{{(behind the surface: no diffuse, no specular)}}"
-            ));
+            let n_dot_l = scalar(way.n_dot_l);
+            self.0.push(format!("{facing} &= {n_dot_l}\\quad\\text{{(behind the surface: no diffuse, no specular)}}"));
             return;
         }
-        self.equal(&format!("\\mathbf{{n}}\\cdot\\mathbf{{l}}_{i}"), &[facing]);
+        self.equal(&facing, &[scalar(way.n_dot_l)]);
         if layer.terms.diffuse == point.at {
-            self.equal(&format!("L_{{d,{i}}}"), &[given(colors.ld)]);
-            let term = format!("{weight}k_d\\, L_{{d,{i}}}\\,(\\mathbf{{n}}\\cdot\\mathbf{{l}}_{i})");
+            let term = format!("{weight}k_d\\, L_{{d,{i}}}\\,({facing})");
             self.equal(&format!("I_{{d,{i}}}"), &[term, color(light.terms.diffuse)]);
         }
-        if layer.terms.specular != point.at || is_black(point.material.ks) {
-            return;
+        if layer.terms.specular == point.at && !is_black(point.material.ks) {
+            self.specular(layer, (light, &way), &weight, i);
         }
+    }
+
+    fn specular(&mut self, layer: &ExplainedLayer, (light, way): (&ExplainedLight, &LightWay), weight: &str, i: usize) {
         let is_phong = layer.reflectance == Reflectance::Phong;
-        let name = if is_phong { "r" } else { "h" };
-        let cosine = if is_phong {
-            format!("\\mathbf{{r}}_{i}\\cdot\\mathbf{{v}}")
+        let (direction, cosine) = if is_phong {
+            let r = format!("\\mathbf{{r}}_{{{i}}}");
+            (r.clone(), format!("{r}\\cdot\\mathbf{{v}}"))
         } else {
-            format!("\\mathbf{{n}}\\cdot\\mathbf{{h}}_{i}")
+            let h = format!("\\mathbf{{h}}_{{{i}}}");
+            (h.clone(), format!("\\mathbf{{n}}\\cdot{h}"))
         };
-        if let Some(direction) = way.direction {
-            self.equal(&format!("\\mathbf{{{name}}}_{i}"), &[vector(direction)]);
-        }
-        self.equal(&cosine, &[scalar(way.cosine)]);
         let power = format!("({cosine})^{{{}}}", short(way.exponent));
-        self.equal(&power, &[scalar(way.power)]);
-        self.equal(&format!("L_{{s,{i}}}"), &[given(colors.ls)]);
+        let direction = way.direction.map(|value| (direction, vector(value)));
+        let of_power = [(cosine, scalar(way.cosine)), (power.clone(), scalar(way.power))];
+        self.row(&direction.into_iter().chain(of_power).collect::<Vec<_>>());
         let term = format!("{weight}k_s\\, L_{{s,{i}}}\\,{power}");
         self.equal(&format!("I_{{s,{i}}}"), &[term, color(light.terms.specular)]);
     }

@@ -190,6 +190,13 @@ pub struct LightWay {
     pub power: f64,
 }
 
+impl LightWay {
+    /// Whether a range weakens the light.
+    fn has_range(&self) -> bool {
+        self.window < 1.0
+    }
+}
+
 /// A colour for each term that lights have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TermColors {

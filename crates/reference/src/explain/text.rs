@@ -278,11 +278,6 @@ impl ExplainedLight {
 }
 
 impl LightWay {
-    /// Whether the range weakens it.
-    fn has_range(&self) -> bool {
-        self.window < 1.0
-    }
-
     /// The factors of distance, range and cone, as symbols.
     fn weight_symbols(&self) -> String {
         let factors =

@@ -128,6 +128,13 @@ impl Oracle {
         Self { supersampling: n.clamp(1, Self::MAX_SUPERSAMPLING), ..self }
     }
 
+    /// Averages as many samples a pixel as the camera has, in as many squares.
+    #[must_use]
+    pub fn with_samples_of_camera(self) -> Self {
+        let side = self.scene.samples.count().isqrt();
+        self.with_supersampling(side)
+    }
+
     /// Whether each surface, and the background, is clamped to 1 before it is blended, as in 8-bit pictures. Default
     /// `false`; ignored where the camera's [`Intensity`] acts on the finished picture.
     #[must_use]
