@@ -7,13 +7,16 @@ use bevy_time::TimeUpdateStrategy;
 use halfway::lighting::{Choices, Term};
 use halfway::mesh::Lines3d;
 use halfway::prelude::*;
+use halfway::reference::metrics::Bars;
 use halfway::reference::{Image, Oracle};
 use halfway::render::AdapterChoice;
 use halfway::scene::options::remove_what_is_laid_over;
 use halfway::scene::{LightSource, PartOfLight, SceneFile, Spawned, spawn};
 use halfway_wild::scene;
+use serde_json::Value;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/wild");
+const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/scenes");
 const SEED: u64 = 2027;
 const SCENES: u64 = 130;
 
@@ -25,18 +28,6 @@ enum Drawer {
 }
 
 impl Drawer {
-    /// The rounding of a sum, relative to the largest value of the picture.
-    ///
-    /// The CPU's is that of f32 at a vertex, where Gouraud shading may be far brighter than the pixel, and of another
-    /// order of the same operations on other sets of terms: 3.8·10⁻⁵ is the most in 200 of these scenes, in which
-    /// triangles are steep and exponents large.
-    fn rounding(self) -> f64 {
-        match self {
-            Self::Oracle => 1e-12,
-            Self::Cpu => 1e-4,
-        }
-    }
-
     fn draw(self, app: &mut App, size: UVec2) -> Option<Image> {
         match self {
             Self::Oracle => {
@@ -50,7 +41,7 @@ impl Drawer {
         }
     }
 
-    fn app(self, file: &SceneFile) -> (App, Spawned) {
+    fn app(self, file: &SceneFile, folder: &str) -> (App, Spawned) {
         let mut app = App::new();
         match self {
             Self::Oracle => app.add_plugins(HalfwayPlugins::reference()),
@@ -59,7 +50,7 @@ impl Drawer {
         app.insert_resource(AdapterChoice::cpu())
             .insert_resource(Headless { size: UVec2::from_array(file.size), pixels: Pixels::Float })
             .insert_resource(TimeUpdateStrategy::ManualDuration(Duration::ZERO));
-        let spawned = spawn(file, Path::new(FOLDER), app.world_mut()).expect("a scene of the folder");
+        let spawned = spawn(file, Path::new(folder), app.world_mut()).expect("a scene of the folder");
         let world = app.world_mut();
         let lines: Vec<Entity> = world.query_filtered::<Entity, With<Lines3d>>().iter(world).collect();
         for entity in lines {
@@ -71,9 +62,9 @@ impl Drawer {
     }
 }
 
-/// A random scene without what is drawn over a picture, and with intensities as they are.
-fn plain(number: u64) -> SceneFile {
-    let mut file = SceneFile::from_json(&scene(SEED, number).to_string(), "scene").expect("a scene");
+/// A scene without what is drawn over a picture, and with intensities as they are.
+fn plain(scene: &Value) -> SceneFile {
+    let mut file = SceneFile::from_json(&scene.to_string(), "scene").expect("a scene");
     file.all_cameras_mut().for_each(|camera| camera.viewport = None);
     remove_what_is_laid_over(&mut file);
     (file.only, file.light) = (None, None);
@@ -98,12 +89,14 @@ fn cuts(lights: usize) -> [(&'static str, Vec<PartOfLight>); 3] {
     ]
 }
 
-fn check(drawer: Drawer, number: u64) -> bool {
-    let file = plain(number);
+/// The differences of the sums of parts from the whole, for each way to cut it, relative to the largest value of the
+/// picture; `None` of a scene that cannot be drawn.
+fn differences(drawer: Drawer, file: &SceneFile, folder: &str) -> Option<Vec<(&'static str, Vec<f64>)>> {
     let size = UVec2::from_array(file.size);
-    let (mut app, spawned) = drawer.app(&file);
-    let Some(whole) = drawer.draw(&mut app, size) else { return false };
-    for (cut, parts) in cuts(spawned.lights.len()) {
+    let (mut app, spawned) = drawer.app(file, folder);
+    let whole = drawer.draw(&mut app, size)?;
+    let most = whole.largest().max(1e-3);
+    let found = cuts(spawned.lights.len()).map(|(cut, parts)| {
         let mut sum = vec![[0.0; 3]; whole.pixels().len()];
         for part in parts {
             spawned.show_light(part, app.world_mut());
@@ -112,27 +105,57 @@ fn check(drawer: Drawer, number: u64) -> bool {
                 *sum = [0, 1, 2].map(|k| sum[k] + pixel[k]);
             }
         }
-        let most = whole.largest().max(1e-3);
-        for (i, (sum, pixel)) in sum.iter().zip(whole.pixels()).enumerate() {
-            let is_close = sum.iter().zip(pixel).all(|(sum, i)| (sum - i).abs() <= drawer.rounding() * most);
-            let (x, y) = (i as u32 % size.x, i as u32 / size.x);
-            assert!(is_close, "scene {number}, {cut}, ({x}, {y}): {sum:?} instead of {pixel:?}");
+        let off = |(sum, pixel): (&[f64; 3], &[f64; 3])| {
+            [0, 1, 2].map(|k| (sum[k] - pixel[k]).abs() / most).into_iter().fold(0.0, f64::max)
+        };
+        (cut, sum.iter().zip(whole.pixels()).map(off).collect())
+    });
+    spawned.show_light(PartOfLight::default(), app.world_mut());
+    assert_eq!(drawer.draw(&mut app, size), Some(whole), "all of the light again");
+    Some(found.into())
+}
+
+fn worst(differences: &[f64]) -> f64 {
+    differences.iter().copied().fold(0.0, f64::max)
+}
+
+/// Checks random scenes, and that most of them can be drawn.
+fn check_random_scenes(drawer: Drawer, is_right: impl Fn(&[f64]) -> bool) {
+    let mut drawn = 0;
+    for number in 0..SCENES {
+        let Some(found) = differences(drawer, &plain(&scene(SEED, number)), FOLDER) else { continue };
+        drawn += 1;
+        for (cut, differences) in found {
+            assert!(is_right(&differences), "scene {number}, by {cut}: {:e}", worst(&differences));
         }
     }
-    spawned.show_light(PartOfLight::default(), app.world_mut());
-    let again = drawer.draw(&mut app, size);
-    assert_eq!(again, Some(whole), "scene {number}: all of the light again");
-    true
+    assert!(drawn > SCENES / 2, "{drawn} of {SCENES}");
 }
 
 #[test]
 fn parts_of_the_oracle_add_up() {
-    let drawn = (0..SCENES).filter(|&number| check(Drawer::Oracle, number)).count();
-    assert!(drawn as u64 > SCENES / 2, "{drawn} of {SCENES}");
+    check_random_scenes(Drawer::Oracle, |differences| worst(differences) <= 1e-12);
 }
 
+/// In f32 a light that nearly touches a surface, a steep triangle or a large exponent multiply rounding, which is another
+/// one among other lights: in such places parts and whole are each within the bar of `Bars::FLOAT` for all values.
 #[test]
-fn parts_of_the_cpus_picture_add_up() {
-    let drawn = (0..SCENES).filter(|&number| check(Drawer::Cpu, number)).count();
-    assert!(drawn as u64 > SCENES / 2, "{drawn} of {SCENES}");
+fn parts_of_the_cpus_pictures_of_random_scenes_add_up() {
+    check_random_scenes(Drawer::Cpu, |differences| {
+        let rounded = differences.iter().filter(|&&off| off <= 1e-5).count();
+        worst(differences) <= Bars::FLOAT.worst && rounded as f64 >= 0.98 * differences.len() as f64
+    });
+}
+
+/// Without such places they add up to a few units of f32.
+#[test]
+fn parts_of_the_cpus_pictures_add_up_to_rounding() {
+    for name in ["brass_teapot", "light_kinds", "moonlit_table", "material_spheres"] {
+        let text = std::fs::read_to_string(Path::new(EXAMPLES).join(name).with_extension("json")).expect("a file");
+        let mut file = plain(&serde_json::from_str(&text).expect("JSON"));
+        file.size = [96, 72];
+        for (cut, differences) in differences(Drawer::Cpu, &file, EXAMPLES).expect("a scene that can be drawn") {
+            assert!(worst(&differences) <= 4e-7, "{name}, by {cut}: {:e}", worst(&differences));
+        }
+    }
 }
