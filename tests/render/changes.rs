@@ -392,6 +392,21 @@ fn an_environment_shows_at_once() {
 }
 
 #[test]
+fn a_sky_shows_where_nothing_was() {
+    let mut scene = one(Cuboid::new(0.2, 0.2, 0.2));
+    scene.environment = Some(Around { sky: true, ..around(0.5) });
+    // Large enough that some tiles hold nothing.
+    let expected = Stage::new(96, 96).draw(&scene);
+    let mut stage = Stage::new(96, 96);
+    scene.environment = Some(around(0.5));
+    let before = stage.draw(&scene);
+    assert!(difference(&before, &expected) > 1e-2);
+    let world = stage.world();
+    world.query::<&mut EnvironmentLight>().single_mut(world).expect("there is one").sky = true;
+    assert_identical("a sky", &expected, &stage.float());
+}
+
+#[test]
 fn a_mesh_that_is_written_anew_shows_at_once() {
     let mut stage = Stage::new(1, 1);
     let things = set(&mut stage);

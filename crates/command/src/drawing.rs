@@ -2,6 +2,7 @@
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use halfway::lighting::Term;
 use halfway::prelude::{Intensity, Reflectance, Shading, UVec2};
 use halfway::record::parse_size;
 use halfway::scene::options::{SceneOptions, parse};
@@ -31,6 +32,13 @@ pub(crate) struct DrawingArgs {
     /// How surfaces reflect [default: the scene's; blinn-phong for a model]
     #[arg(long, value_parser = reflectances())]
     pub(crate) reflectance: Option<Reflectance>,
+    /// Draw one term alone; emission with the background, before which the others are black [default: the scene's; all]
+    #[arg(long, value_parser = terms())]
+    only: Option<Term>,
+    /// Draw one light alone, by this name or the N-th, counted from 0: without the global ambient light, an environment,
+    /// emission and the background [default: the scene's; all]
+    #[arg(long, value_name = "NAME|N")]
+    light: Option<String>,
     /// Samples a pixel: 1, 4 for smooth edges, or 16 or 64, each shaded [default: the scene's; 4 for a model]
     #[arg(long, value_parser = samples())]
     pub(crate) samples: Option<u32>,
@@ -85,6 +93,8 @@ impl DrawingArgs {
             shading: self.shading(),
             reflectance: self.reflectance,
             tolerance: self.tolerance.given(),
+            only: self.only,
+            light: self.light.clone(),
             samples: self.samples,
             intensity: self.intensity,
             animation: self.animation.clone(),
@@ -115,6 +125,10 @@ fn shadings() -> impl TypedValueParser<Value = GivenShading> {
 
 fn reflectances() -> impl TypedValueParser<Value = Reflectance> {
     PossibleValuesParser::new(values::<Reflectance>()).try_map(|text| choice(&text))
+}
+
+fn terms() -> impl TypedValueParser<Value = Term> {
+    PossibleValuesParser::new(values::<Term>()).try_map(|text| choice(&text))
 }
 
 fn samples() -> impl TypedValueParser<Value = u32> {

@@ -132,6 +132,9 @@ impl SceneInput {
         if let SceneError::NoCamera { .. } = error {
             return format!("--camera: {}: {error}", self.file.display()).into();
         }
+        if let SceneError::NoLight { .. } = error {
+            return format!("--light: {}: {error}", self.file.display()).into();
+        }
         let text = error.to_string();
         let text = text.strip_prefix("scene: ").unwrap_or(&text);
         format!("{}: {text}", self.file.display()).into()

@@ -12,6 +12,7 @@ mod demo;
 mod drawing;
 mod edges;
 mod empty;
+mod explain;
 mod failure;
 mod figures;
 mod framing;
@@ -28,6 +29,7 @@ mod scalars;
 #[cfg(feature = "measure")]
 mod scenery;
 mod steps;
+mod terms;
 mod thumbnail;
 mod tolerance;
 mod verify;
@@ -84,6 +86,15 @@ enum Command {
     /// such as normals that are not normalised, and with two at once; those are named that explain the difference, the
     /// best first, with where they do. A rubric says how many points they take away. Exit code 4 if the picture differs.
     Mark(mark::MarkArgs),
+    /// Explain a pixel: its surfaces, every light and term there, their sum, its clamping and encoding, in 64-bit arithmetic
+    ///
+    /// What is printed comes from the reference renderer as it draws the pixel. Vectors are in eye space.
+    Explain(explain::ExplainArgs),
+    /// Draw each term of each light by itself, and their sums, on one sheet with captions
+    ///
+    /// A row a light with its ambient, diffuse and specular term and their sum; a row without lights: the global ambient
+    /// light with an environment's, emission with the background, and what an environment mirrors; a row of sums.
+    Terms(terms::TermsArgs),
     /// Print the contents of models, and their problems
     Info(info::InfoArgs),
     /// Write a model in another format, mended, refined, simplified or with other normals; print what is lost
@@ -148,6 +159,8 @@ fn main() -> ExitCode {
         Command::Compare(args) => compare::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Mark(args) => mark::run(&args),
+        Command::Explain(args) => explain::run(&args),
+        Command::Terms(args) => terms::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Convert(args) => convert::run(&args),
         #[cfg(feature = "measure")]

@@ -222,7 +222,7 @@ fn parse_frames(text: &str) -> Result<Range<u32>, String> {
         .ok_or_else(|| format!("expected A..B with A below B and B at most {MOST_FRAMES}, such as 0..120"))
 }
 
-fn parse_time(text: &str) -> Result<f64, String> {
+pub(crate) fn parse_time(text: &str) -> Result<f64, String> {
     let time = text.trim().parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0);
     time.ok_or_else(|| "expected seconds, 0 or more, such as 1.5".to_owned())
 }

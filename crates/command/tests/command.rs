@@ -8,12 +8,14 @@ mod command {
     #[cfg(feature = "measure")]
     mod chart;
     mod demos;
+    mod explain;
     mod lines;
     mod looks;
     mod marking;
     mod models;
     mod pictures;
     mod reference;
+    mod terms;
     mod tolerances;
 
     use std::fs;

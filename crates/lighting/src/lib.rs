@@ -113,6 +113,7 @@ mod shading;
 mod show;
 #[cfg(feature = "ecs")]
 mod shown;
+mod term;
 mod tolerance;
 mod vertex_colors;
 mod view;
@@ -155,6 +156,7 @@ pub use shading::{Faces, Reflectance, Shading, Terms, Viewer};
 pub use show::Show;
 #[cfg(feature = "ecs")]
 pub use shown::Shown;
+pub use term::Term;
 pub use tolerance::{Tolerance, ViewTolerance};
 pub use vertex_colors::VertexColors;
 pub use view::View;

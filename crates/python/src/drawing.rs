@@ -25,7 +25,7 @@ use pyo3::types::{PyByteArray, PyDict};
 
 use crate::mesh::Mesh as PyMesh;
 use crate::pictures::{Given, Pixels as PyPixels, floats, to_python};
-use crate::reference::{Judged, judge_given, reference_picture};
+use crate::reference::{Judged, explained, judge_given, reference_picture};
 use crate::work::{Failure, detached};
 
 /// A scene with its meshes, spawned into an App that is kept from picture to picture.
@@ -200,10 +200,7 @@ impl Drawing {
         let quantities = outputs.iter().map(|name| quantity(name)).collect::<Result<Vec<_>, _>>()?;
         let (picture, images, why) = self.with(py, |app, spawned, recipe| {
             let pixels = if is_float { Pixels::Float } else { Pixels::Byte };
-            if time != 0.0 && !spawned.is_animated {
-                return Err(Failure::Input(format!("time: {time}; the scene has no animation")));
-            }
-            app.insert_resource(SceneTime::At(time));
+            set_time(app, spawned, time)?;
             let size = UVec2::from_array(recipe.scene.size);
             if recipe.renderer == Renderer::Reference {
                 let (picture, images) = reference_picture(app, size, pixels, &quantities)?;
@@ -224,6 +221,14 @@ impl Drawing {
             named.set_item(name, image_to_python(py, values, quantity.channels().len()))?;
         }
         Ok((to_python(py, &picture), named, why))
+    }
+
+    /// A pixel of the picture at this time, explained: as JSON, as text and as LaTeX.
+    fn explain(&self, py: Python<'_>, x: u32, y: u32, time: f64) -> PyResult<(String, String, String)> {
+        self.with(py, |app, spawned, recipe| {
+            set_time(app, spawned, time)?;
+            explained(app, UVec2::from_array(recipe.scene.size), [x, y])
+        })
     }
 
     /// A sheet of views, `front,right,iso`, with captions.
@@ -314,6 +319,15 @@ impl Drawing {
         figures.set_item("sentence", sentence)?;
         Ok(figures)
     }
+}
+
+/// Sets the time of the scene's animation, in seconds.
+fn set_time(app: &mut App, spawned: &Spawned, time: f64) -> Result<(), Failure> {
+    if time != 0.0 && !spawned.is_animated {
+        return Err(Failure::Input(format!("time: {time}; the scene has no animation")));
+    }
+    app.insert_resource(SceneTime::At(time));
+    Ok(())
 }
 
 /// The values of a quantity: whether they are floats, how many a pixel has, and the numbers.

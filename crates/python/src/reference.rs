@@ -29,6 +29,15 @@ pub(crate) fn reference_picture(
     Ok((picture, images))
 }
 
+/// A pixel of the picture of an App, explained: as JSON, as text and as LaTeX.
+pub(crate) fn explained(app: &mut App, size: UVec2, [x, y]: [u32; 2]) -> Result<(String, String, String), Failure> {
+    app.update();
+    let oracle = Oracle::new(app.world_mut(), size).map_err(Failure::work)?;
+    let oracle = oracle.with_clamping(true).with_samples_of_camera();
+    let explained = oracle.explain(x, y).map_err(|error| Failure::Input(format!("at: {error}")))?;
+    Ok((explained.to_json().to_string(), explained.to_string(), explained.to_latex()))
+}
+
 /// The judgement of a picture.
 pub(crate) struct Judged {
     pub(crate) is_within: bool,

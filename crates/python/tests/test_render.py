@@ -155,6 +155,45 @@ def test_a_scene_of_nothing_says_so(box):
         halfway.render(*box, size=SIZE, camera=behind)
 
 
+def test_a_pixel_is_explained(box):
+    scene = halfway.Scene(halfway.Mesh(*box))
+    picture = scene.reference(size=SIZE)
+    for at in [(48, 32), (40, 30), (0, 0)]:
+        explained = scene.explain(at, size=SIZE)
+        assert explained.bytes == tuple(picture.array[at[1], at[0], :3])
+        assert explained["pixel"] == list(at) and len(explained["samples"]) == 4
+    flat = halfway.explain(scene, (48, 32), size=SIZE, samples=1, shading="flat", intensity="clamp")
+    (layer,) = flat["samples"][0]["layers"]
+    light = layer["points"][0]["lights"][0]
+    assert layer["points"][0]["at"] == "triangle" and light["kind"] == "directional"
+    sums = np.sum([layer["sums"][term] for term in ("ambient", "diffuse", "specular")], axis=0)
+    assert np.allclose(sums + layer["emission"], layer["intensity"], atol=1e-12)
+    assert flat.color == pytest.approx(layer["intensity"], abs=1e-12)
+    assert str(flat) == flat.text and "flat shading" in flat.text and flat.latex.startswith("\\begin{align*}")
+    with pytest.raises(ValueError, match="lies outside the picture"):
+        scene.explain((SIZE[0], 0), size=SIZE)
+    for bad, error in [((1,), TypeError), ((1.5, 2), TypeError), ((-1, 2), ValueError)]:
+        with pytest.raises(error, match="at: "):
+            scene.explain(bad, size=SIZE)
+
+
+def test_one_term_and_one_light_alone(box):
+    scene = halfway.Scene()
+    scene.add(halfway.Mesh(*box), material=halfway.Material(diffuse=(0.5, 0.5, 0.5), ambient=(0.5, 0.5, 0.5), specular=(0.3, 0.3, 0.3)))
+    scene.add_light(halfway.PointLight(name="key", position=(2, 4, 3)))
+    scene.add_light(halfway.DirectionalLight(name="fill", direction=(-1, -1, -1), ambient=(0.1, 0.2, 0.3)))
+    draw = lambda **options: scene.render(size=SIZE, floats=True, samples=1, **options).array[..., :3]
+    terms = sum(draw(only=term) for term in ("ambient", "diffuse", "specular", "emission"))
+    assert np.allclose(terms, draw(), rtol=1e-5, atol=1e-6)
+    key = draw(light="key")
+    assert np.array_equal(key, draw(light=0)) and not np.allclose(key, draw(light="fill"))
+    assert np.allclose(key, sum(draw(light="key", only=term) for term in ("ambient", "diffuse", "specular")), rtol=1e-5, atol=1e-6)
+    with pytest.raises(ValueError, match='no light is called "kye"; there are 0 "key", 1 "fill"'):
+        draw(light="kye")
+    with pytest.raises(ValueError, match="expected ambient, diffuse, specular or emission"):
+        draw(only="shiny")
+
+
 def test_the_reference_renderer_draws_the_same(box):
     scene = halfway.Scene(halfway.Mesh(*box))
     picture = scene.render(size=SIZE)

@@ -5,6 +5,16 @@ use std::ops::Range;
 use halfway_lighting::Encoding;
 use image::{DynamicImage, Rgb, RgbImage, Rgba32FImage, RgbaImage};
 
+/// An intensity clamped to [0, 1] and encoded; NaN becomes 0.
+pub(crate) fn encoded(i: f64, encoding: Encoding) -> f64 {
+    encoding.encode(if i.is_nan() { 0.0 } else { i.clamp(0.0, 1.0) })
+}
+
+/// An encoded channel as the nearest of 256 steps.
+pub(crate) fn byte(encoded: f64) -> u8 {
+    (encoded * 255.0).round() as u8
+}
+
 /// A picture of linear intensities in f64, top row first, three channels; and, where it is known, which pixels show an
 /// object and which the background.
 ///
@@ -154,8 +164,7 @@ impl Image {
 
     /// Each channel clamped to [0, 1], encoded and rounded to the nearest of 256 steps. NaN becomes 0.
     pub fn to_bytes(&self, encoding: Encoding) -> RgbImage {
-        let step = |i: f64| (encoding.encode(if i.is_nan() { 0.0 } else { i.clamp(0.0, 1.0) }) * 255.0).round() as u8;
-        let pixel = |x, y| Rgb(self.pixel(x, y).map(step));
+        let pixel = |x, y| Rgb(self.pixel(x, y).map(|i| byte(encoded(i, encoding))));
         RgbImage::from_fn(self.width, self.height, pixel)
     }
 

@@ -2,6 +2,7 @@
 // Powers and the functions of angles are called only through `halfway_lighting::equations`: see clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+pub mod explain;
 mod image;
 mod interpolation;
 pub mod marking;

@@ -14,6 +14,7 @@ use halfway_lighting::{Camera, Origin};
 use crate::light::LightEntry;
 use crate::light_place::place;
 use crate::model_animation::play_models;
+use crate::part_of_light::insert_light;
 use crate::track::{Animate, TrackEntry};
 use crate::transform::TransformEntry;
 use crate::view::CameraEntry;
@@ -89,7 +90,7 @@ fn pose(entity: &mut EntityWorldMut, animated: &Animated, time: f64) {
         Animated::Object(object) => object.0.at(&object.1, time).parts(origin),
         Animated::Light(light) => {
             let (component, transform) = place(&light.0.at(&light.1, time), origin);
-            component.insert_into(entity);
+            insert_light(component, entity);
             Some(transform)
         }
         Animated::Camera(camera) => {

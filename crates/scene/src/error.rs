@@ -98,6 +98,14 @@ pub enum SceneError {
         /// The cameras that there are, as a clause.
         known: String,
     },
+    /// No light of the scene has the name or the number that was asked for.
+    #[error("no light is called {wanted:?}; {known}")]
+    NoLight {
+        /// The name or the number.
+        wanted: String,
+        /// The lights that there are, as a clause.
+        known: String,
+    },
     /// The world has no `Assets<Mesh>` to put meshes into.
     #[error("the world has no `Assets<Mesh>`; add `MeshPlugin` before a scene is spawned")]
     NoMeshAssets,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use bevy_color::ColorToComponents;
 use halfway_lighting::{
-    Camera, Encoding, GlobalAmbient, Intensity, Range, Reflectance, Shading, Show, Tolerance, Viewer,
+    Camera, Encoding, GlobalAmbient, Intensity, Range, Reflectance, Shading, Show, Term, Tolerance, Viewer,
 };
 
 use crate::check::{Check, KeyProblem, Limits, Within};
@@ -75,6 +75,11 @@ keys! {
         /// The lights: a list, or a rig that follows the camera. null or left out: those of the models, or a key light, a
         /// fill light and a headlight where the models have none. An empty list: no lights.
         lights: Option<LightsEntry> = None,
+        /// The only term that is drawn: ambient, diffuse, specular or emission, with which the background goes; null: all.
+        only: Option<Term> = None,
+        /// The only light that is drawn, by its name or its number: without the global ambient light, an environment,
+        /// emission, unlit objects and the background. null: all of them.
+        light: Option<NameOrIndex> = None,
         /// The animation of the models (glTF) that is played, by its name or its number; models without it play their
         /// first. null: the first of each.
         animation: Option<NameOrIndex> = None,
@@ -96,6 +101,11 @@ impl Object for SceneFile {
         let objects = (0..).map(item("objects")).zip(self.objects.iter().map(|object| object.name.as_deref()));
         let camera = self.camera.iter().map(|camera| ("camera".to_owned(), camera.name.as_deref()));
         check_names(camera.chain(cameras).chain(lights).chain(objects))?;
+        if let (Some(Term::Emission), Some(_)) = (self.only, &self.light) {
+            let message =
+                "is emission, which belongs to no light; expected ambient, diffuse or specular beside `light`";
+            return Err(KeyProblem::new("only", message));
+        }
         for (i, light) in self.light_list().iter().enumerate() {
             self.check_attach(&light.attach).within_item(i).within("lights")?;
         }

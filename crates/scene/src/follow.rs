@@ -46,7 +46,10 @@ impl Spawned {
     /// ```
     pub fn follow(&mut self, shown: &SceneFile, scene: &SceneFile, world: &mut World) -> bool {
         let same_lights = shown.lights == scene.lights;
-        let can_follow = plain(shown) == plain(scene)
+        let is_whole = |scene: &SceneFile| scene.only.is_none() && scene.light.is_none();
+        let can_follow = is_whole(shown)
+            && is_whole(scene)
+            && plain(shown) == plain(scene)
             && (same_lights || scene.lights.is_some())
             && shown.objects.len() == scene.objects.len()
             && shown.objects.iter().zip(&scene.objects).all(|(shown, object)| follows(shown, object))
@@ -188,6 +191,8 @@ fn plain(scene: &SceneFile) -> SceneFile {
         edges: None,
         show: default.show,
         lights: None,
+        only: None,
+        light: None,
         objects: Vec::new(),
         // Animations and images are not copied for nothing.
         size: scene.size,
@@ -391,12 +396,13 @@ mod tests {
 
     #[test]
     fn other_changes_need_a_new_scene() {
-        let edits: [(&str, fn(&mut SceneFile)); 5] = [
+        let edits: [(&str, fn(&mut SceneFile)); 6] = [
             ("mesh", |scene| scene.objects[0].mesh = MeshEntry::Box(halfway_mesh::Cuboid::default())),
             ("objects", |scene| scene.objects.push(ball())),
             ("own material", |scene| scene.objects[0].material = None),
             ("lights of models", |scene| scene.lights = None),
             ("not valid", |scene| scene.samples = 3),
+            ("one term", |scene| scene.only = Some(halfway_lighting::Term::Diffuse)),
         ];
         for (name, edit) in edits {
             let (mut world, before) = (world(), scene());

@@ -32,6 +32,7 @@ use crate::model_animation::ModelAnimation;
 use crate::models::{ModelMap, ObjectShape, ShapeLines, ShapePart, Shapes};
 use crate::named::NameOrIndex;
 use crate::object::ObjectEntry;
+use crate::part_of_light::{LightSource, PartOfLight, insert_light};
 use crate::placement::Placement;
 use crate::view::CameraEntry;
 use crate::viewport::insert_layers;
@@ -94,7 +95,7 @@ impl Spawned {
         }
         let mut entity = world.entity_mut(entity);
         insert_place(&mut entity, transform, origin);
-        component.insert_into(&mut entity);
+        insert_light(component, &mut entity);
         true
     }
 
@@ -209,6 +210,8 @@ fn spawn_seen(
         shapes.warnings.append(&mut shapes.unused_cameras);
     }
 
+    let source = chosen_light(scene, &objects)?;
+
     world.insert_resource(GlobalAmbient(LinearRgba::from_f32_array_no_alpha(scene.ambient)));
     if let Some(tolerance) = scene.tolerance {
         world.insert_resource(ViewTolerance(tolerance));
@@ -241,7 +244,9 @@ fn spawn_seen(
         spawn_legend(title, &objects, &mut warnings, world);
     }
     let is_animated = [&cameras[..], &frames, &lights].concat().iter().any(|entity| is_animated(*entity, world));
-    Ok(Spawned { camera, cameras, objects: frames, lights, warnings, is_animated, origin })
+    let spawned = Spawned { camera, cameras, objects: frames, lights, warnings, is_animated, origin };
+    spawned.show_light(PartOfLight { term: scene.only, source }, world);
+    Ok(spawned)
 }
 
 /// Whether there is somewhere to keep meshes, and lines.
@@ -297,15 +302,7 @@ impl SeenFrom {
             )
             .collect();
         let Some(found) = NameOrIndex::from(wanted).find_by_text(names.iter().copied()) else {
-            let listed = names.iter().enumerate().map(|(i, name)| match name {
-                Some(name) => format!("{i} {name:?}"),
-                None => i.to_string(),
-            });
-            let listed: Vec<String> = listed.collect();
-            let known = match listed.as_slice() {
-                [] => "neither the scene nor its models have any".to_owned(),
-                _ => format!("there are {}", listed.join(", ")),
-            };
+            let known = listed(&names, "neither the scene nor its models have any");
             return Err(SceneError::NoCamera { wanted: wanted.to_owned(), known });
         };
         let own = scene.all_cameras().count();
@@ -786,6 +783,41 @@ fn spawn_legend(title: &str, objects: &[Object], warnings: &mut Vec<String>, wor
             .push("legend: it is that of the first object with `scalars`; others have another map or range".to_owned());
     }
     world.insert_resource(Legend { title: title.to_owned(), range, colors: first.map.colors() });
+}
+
+/// The light that the scene draws alone, if it does.
+fn chosen_light(scene: &SceneFile, objects: &[Object]) -> Result<LightSource, SceneError> {
+    let Some(wanted) = &scene.light else { return Ok(LightSource::Anywhere) };
+    let entries = scene.lights.as_ref().map(LightsEntry::entries);
+    let of_models = || objects.iter().flat_map(|(_, shape)| &shape.lights).map(|light| Some(light.name.clone()));
+    let mut names: Vec<Option<String>> = match &entries {
+        Some(entries) => entries.iter().map(|light| light.name.clone()).collect(),
+        None => of_models().collect(),
+    };
+    if entries.is_none() && names.is_empty() {
+        names = default_lights().iter().map(|light| light.name.clone()).collect();
+    }
+    let names: Vec<Option<&str>> = names.iter().map(|name| name.as_deref().filter(|name| !name.is_empty())).collect();
+    // Messages call a light without a name so.
+    let place = || (0..names.len()).position(|i| *wanted == NameOrIndex::Name(format!("lights[{i}]")));
+    let found = wanted.find_by_text(names.iter().copied()).or_else(place);
+    found.map(LightSource::Light).ok_or_else(|| {
+        let wanted = match wanted {
+            NameOrIndex::Name(name) => name.clone(),
+            NameOrIndex::Index(index) => index.to_string(),
+        };
+        SceneError::NoLight { wanted, known: listed(&names, "the scene has none") }
+    })
+}
+
+/// Names with their numbers, as a clause.
+fn listed(names: &[Option<&str>], nothing: &str) -> String {
+    let listed = names.iter().enumerate().map(|(i, name)| match name {
+        Some(name) => format!("{i} {name:?}"),
+        None => i.to_string(),
+    });
+    let listed: Vec<String> = listed.collect();
+    if listed.is_empty() { nothing.to_owned() } else { format!("there are {}", listed.join(", ")) }
 }
 
 /// The scene's lights, else the models', else the default ones.

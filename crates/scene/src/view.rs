@@ -5,8 +5,8 @@ use std::ops::Bound::{Excluded, Included, Unbounded};
 use bevy_math::{DMat3, DQuat, DVec3, Quat, Vec3};
 use bevy_transform::components::Transform;
 use halfway_lighting::{
-    Choices, Encoding, Faces, Film, Framing, Frequency, Projection, Range, Reflectance, Shading, Terms, Tolerance,
-    VertexColors, View, Viewer,
+    Choices, Encoding, Faces, Film, Framing, Frequency, Projection, Range, Reflectance, Shading, Term, Terms,
+    Tolerance, VertexColors, View, Viewer,
 };
 
 use halfway_mesh::origin_of_box;
@@ -139,6 +139,18 @@ keys! {
 impl Object for AutoShading {
     const EXPECTED: &'static str = "an object such as {\"tolerance\": 1.0}";
 }
+
+impl Keys for Term {
+    const NAME: &'static str = "Term";
+    const MEANING: &'static str = "A term of the equation. The four add up to the picture.";
+    const WORDS: Words<Self> = &named_words::<Self, { Self::CHOICES.len() }>();
+
+    fn blank() -> Self {
+        Self::Ambient
+    }
+}
+
+impl Object for Term {}
 
 impl Keys for Reflectance {
     const NAME: &'static str = "Reflectance";

@@ -3,10 +3,12 @@
 use super::Row;
 use crate::render::edges::screen;
 use crate::render::scene::{
-    Lamp, On, Scene, Thing, directional_light, glowing, material, other_material, point_light, rotated, scaled, shining,
+    Kind, Lamp, On, Scene, Thing, directional_light, glowing, material, other_material, point_light, rotated, scaled,
+    shining,
 };
 use crate::render::sides::hemisphere;
-use halfway::lighting::Frequency;
+use halfway::lighting::lights::LightKind as _;
+use halfway::lighting::{Frequency, Term};
 use halfway::prelude::*;
 
 /// A coarse sphere on a floor, whose triangles face all directions.
@@ -72,6 +74,27 @@ fn of_materials(scene: &mut Scene, change: fn(&mut Material)) {
     scene.things.iter_mut().for_each(|thing| change(&mut thing.material));
 }
 
+/// Lights of each kind and their materials as a scene has them that draws one term alone.
+fn term_alone(term: Term) -> Scene {
+    let mut scene = lights(6);
+    scene.camera.background = LinearRgba::BLACK;
+    for thing in &mut scene.things {
+        thing.material.emission = LinearRgba::rgb(0.1, 0.05, 0.2);
+        thing.material = term.of_material(thing.material);
+    }
+    for lamp in &mut scene.lamps {
+        if term == Term::Ambient {
+            lamp.kind = match &lamp.kind {
+                Kind::Directional(light) => Kind::Directional(light.ambient_alone()),
+                Kind::Point(light) => Kind::Point(light.ambient_alone()),
+                Kind::Spot(light) => Kind::Spot(light.ambient_alone()),
+                Kind::Hemisphere(light) => Kind::Hemisphere(light.ambient_alone()),
+            };
+        }
+    }
+    scene
+}
+
 fn of_light(scene: &mut Scene, light: PointLight) {
     scene.lamps = vec![Lamp::point(light, Vec3::new(1.2, 1.6, 1.8))];
 }
@@ -119,6 +142,10 @@ fn materials_and_lights() -> Vec<(&'static str, Scene)> {
                 of_light(scene, PointLight::new(LinearRgba::rgb(9.0, 4.0, 2.0)));
             }),
         ),
+        ("the ambient term alone", term_alone(Term::Ambient)),
+        ("the diffuse term alone", term_alone(Term::Diffuse)),
+        ("the specular term alone", term_alone(Term::Specular)),
+        ("the emission alone", term_alone(Term::Emission)),
         ("two lights of each kind", lights(6)),
         ("a hemisphere alone", still_life().lit(outside())),
         ("a hemisphere beside a lamp", with(|scene| scene.lamps.push(outside()))),

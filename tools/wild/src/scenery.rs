@@ -68,7 +68,18 @@ pub fn scene(seed: u64, number: u64) -> Value {
     if random.percent(15) {
         share_picture(random, unit, &mut scene);
     }
+    show_part_of_light(random, &mut scene);
     scene.into()
+}
+
+/// Draws one term, or one light, alone.
+fn show_part_of_light(random: &mut Rng, scene: &mut Object) {
+    scene.perhaps(random, 8, "only", |random| random.choose(&["ambient", "diffuse", "specular", "emission"]).into());
+    let lights = scene.0.get("lights").and_then(Value::as_array).map_or(0, Vec::len);
+    // Emission belongs to no light.
+    if lights > 0 && scene.0.get("only").is_none_or(|only| only != "emission") {
+        scene.perhaps(random, 5, "light", |random| json!(random.u64(0..lights as u64)));
+    }
 }
 
 /// Adds a small model, lines along edges, and lines that explain the scene.

@@ -14,6 +14,32 @@ pub const COINCIDENT: f32 = 2e-6;
 /// which side a light is that stands in a floor.
 pub const GRAZING: f32 = 5e-7;
 
+/// The way of a light to a point: its direction, and what distance, range and cone leave of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrival<T> {
+    /// l, the unit vector from the point toward the light.
+    pub l: [T; 3],
+    /// d in world units; `None` of a directional light.
+    pub distance: Option<T>,
+    /// See [`Incidence::grazing`].
+    pub grazing: T,
+    /// att, without the range: 1 of a directional light.
+    pub attenuation: T,
+    /// The factor of the range: 1 where there is none.
+    pub window: T,
+    /// The cosine of the angle between the axis of the cone and the ray to the point; `None` without a cone.
+    pub cos_phi: Option<T>,
+    /// spot: 1 without a cone.
+    pub spot: T,
+}
+
+impl<T: Real> Arrival<T> {
+    /// The direction, with attenuation, range and cone as one weight.
+    pub fn incidence(&self) -> Incidence<T> {
+        Incidence { l: self.l, grazing: self.grazing, weight: self.attenuation * self.window * self.spot }
+    }
+}
+
 /// A light as it arrives at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Incidence<T> {

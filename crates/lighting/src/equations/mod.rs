@@ -43,7 +43,7 @@ pub use crate::lights::{
     spot_factor,
 };
 pub use crate::shade::{LightTerms, incidence, irradiance, light_contribution, light_terms, reflected, shade};
-pub use arrival::{COINCIDENT, GRAZING, Incidence, Irradiance, view_vector};
+pub use arrival::{Arrival, COINCIDENT, GRAZING, Incidence, Irradiance, view_vector};
 pub use encoding::srgb_encoded;
 pub use environment::{lobe_angle, lobe_exponent, mean_light, mirrored, surroundings};
 pub use normal::{NORMAL_MIN, normal_matrix, transform_normal};

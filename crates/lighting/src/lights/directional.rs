@@ -5,7 +5,7 @@ use crate::LinearRgba;
 use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
-use crate::equations::{Coefficients, Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint, unit};
+use crate::equations::{Arrival, Coefficients, Eye, GRAZING, Irradiance, Real, ShadedPoint, unit};
 use crate::field::{self, Described, Field, rgb};
 use crate::invalid::{Fields, InvalidValue};
 use crate::light_colors::{Colors, meaning};
@@ -107,14 +107,26 @@ pub struct Directional<T> {
 
 impl<T: Real> Directional<T> {
     /// The same at every point.
-    fn arriving(&self) -> Incidence<T> {
-        Incidence { l: self.toward, grazing: T::from_f64(GRAZING.into()), weight: T::one() }
+    fn arriving(&self) -> Arrival<T> {
+        Arrival {
+            l: self.toward,
+            distance: None,
+            grazing: T::from_f64(GRAZING.into()),
+            attenuation: T::one(),
+            window: T::one(),
+            cos_phi: None,
+            spot: T::one(),
+        }
     }
 }
 
 impl<T: Real> LightSource<T> for Directional<T> {
-    fn incidence(&self, _: &ShadedPoint<T>) -> Option<Incidence<T>> {
+    fn arrival(&self, _: &ShadedPoint<T>) -> Option<Arrival<T>> {
         Some(self.arriving())
+    }
+
+    fn colors(&self) -> Option<Colors<T>> {
+        Some(self.colors)
     }
 
     fn irradiance(
@@ -124,7 +136,7 @@ impl<T: Real> LightSource<T> for Directional<T> {
         reflectance: Reflectance,
         material: &Coefficients<T>,
     ) -> Irradiance<T> {
-        self.colors.arriving(&self.arriving(), T::one(), (surface, view), (reflectance, material))
+        self.colors.arriving(&self.arriving().incidence(), T::one(), (surface, view), (reflectance, material))
     }
 
     fn steady_ambient(&self) -> [T; 3] {
@@ -162,6 +174,10 @@ fn directional_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Mater
 
     fn validate(&self) -> Result<(), InvalidValue> {
         self.validate()
+    }
+
+    fn ambient_alone(&self) -> Self {
+        Self { diffuse: LinearRgba::BLACK, specular: LinearRgba::BLACK, ..*self }
     }
 
     fn placed(&self, frame: &impl LightFrame) -> Result<Light<f64>, InvalidValue> {

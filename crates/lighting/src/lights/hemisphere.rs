@@ -6,10 +6,11 @@ use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::{add, dot, scale};
-use crate::equations::{self, Coefficients, Eye, Incidence, Irradiance, Real, ShadedPoint, unit};
+use crate::equations::{self, Arrival, Coefficients, Eye, Irradiance, Real, ShadedPoint, unit};
 use crate::falloff::number;
 use crate::field::{self, Described, Field, rgb};
 use crate::invalid::{Fields, InvalidValue};
+use crate::light_colors::Colors;
 use crate::record::{self, LightRecord};
 
 macro_rules! meaning {
@@ -113,7 +114,11 @@ impl<T: Real> Hemisphere<T> {
 }
 
 impl<T: Real> LightSource<T> for Hemisphere<T> {
-    fn incidence(&self, _: &ShadedPoint<T>) -> Option<Incidence<T>> {
+    fn arrival(&self, _: &ShadedPoint<T>) -> Option<Arrival<T>> {
+        None
+    }
+
+    fn colors(&self) -> Option<Colors<T>> {
         None
     }
 
@@ -161,6 +166,10 @@ fn hemisphere_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Materi
 
     fn validate(&self) -> Result<(), InvalidValue> {
         self.validate()
+    }
+
+    fn ambient_alone(&self) -> Self {
+        Self { sky: LinearRgba::BLACK, ground: LinearRgba::BLACK }
     }
 
     fn placed(&self, frame: &impl LightFrame) -> Result<Light<f64>, InvalidValue> {

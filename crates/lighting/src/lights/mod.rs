@@ -35,7 +35,7 @@ use glam::{DAffine3, DVec3};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::normalize_or_zero;
-use crate::equations::{Coefficients, Eye, Incidence, Irradiance, Real, ShadedPoint};
+use crate::equations::{Arrival, Coefficients, Eye, Incidence, Irradiance, Real, ShadedPoint};
 use crate::field::Described;
 use crate::invalid::InvalidValue;
 use crate::record::LightRecord;
@@ -68,6 +68,10 @@ pub trait LightKind: Described + Debug + PartialEq {
     /// The first field that is outside the range it documents.
     fn validate(&self) -> Result<(), InvalidValue>;
 
+    /// The same light with its ambient colour alone.
+    #[must_use]
+    fn ambient_alone(&self) -> Self;
+
     /// The light at the transform of its entity.
     ///
     /// # Errors
@@ -90,8 +94,16 @@ pub trait LightKind: Described + Debug + PartialEq {
 /// A light of one kind, in the number type and the space of an evaluation: eye or world, as long as positions, normals
 /// and the viewer are in the same one and lengths in it are world units.
 pub trait LightSource<T: Real>: Copy + Debug + PartialEq {
+    /// Its way to a point; `None` for light from all around.
+    fn arrival(&self, surface: &ShadedPoint<T>) -> Option<Arrival<T>>;
+
     /// Its direction and strength at a point; `None` for light from all around.
-    fn incidence(&self, surface: &ShadedPoint<T>) -> Option<Incidence<T>>;
+    fn incidence(&self, surface: &ShadedPoint<T>) -> Option<Incidence<T>> {
+        self.arrival(surface).map(|arrival| arrival.incidence())
+    }
+
+    /// Its colours; `None` for light from all around.
+    fn colors(&self) -> Option<Colors<T>>;
 
     /// Its light at a point of this material, before the material's reflectances.
     fn irradiance(
@@ -334,9 +346,15 @@ macro_rules! light_kinds {
         }
 
         impl<T: Real> LightSource<T> for Light<T> {
-            fn incidence(&self, surface: &ShadedPoint<T>) -> Option<Incidence<T>> {
+            fn arrival(&self, surface: &ShadedPoint<T>) -> Option<Arrival<T>> {
                 match self {
-                    $(Self::$kind(source) => source.incidence(surface)),*
+                    $(Self::$kind(source) => source.arrival(surface)),*
+                }
+            }
+
+            fn colors(&self) -> Option<Colors<T>> {
+                match self {
+                    $(Self::$kind(source) => source.colors()),*
                 }
             }
 
@@ -419,6 +437,14 @@ macro_rules! light_kinds {
         )*
 
         impl LightComponent {
+            /// The same light with its ambient colour alone: what it adds to the ambient term.
+            #[must_use]
+            pub fn ambient_alone(&self) -> Self {
+                match self {
+                    $(Self::$kind(light) => Self::$kind(light.ambient_alone())),*
+                }
+            }
+
             /// The light where its entity stands.
             ///
             /// # Errors

@@ -6,7 +6,7 @@ use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView};
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::{length, toward};
-use crate::equations::{COINCIDENT, Coefficients, Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint};
+use crate::equations::{Arrival, COINCIDENT, Coefficients, Eye, GRAZING, Incidence, Irradiance, Real, ShadedPoint};
 use crate::falloff::{Attenuation, ConeTerms, attenuation, number, range_window};
 use crate::field::{self, Described, Field, FieldPlace, rgb};
 use crate::invalid::{Fields, InvalidValue};
@@ -181,9 +181,8 @@ pub struct Point<T> {
 
 impl<T: Real> Point<T> {
     // ANCHOR: arriving_at
-    /// Its direction and strength at a point. If the light is at the point itself ([`COINCIDENT`]) l is n and the
-    /// distance 0.
-    pub(super) fn arriving_at(&self, surface: &ShadedPoint<T>) -> Incidence<T> {
+    /// Its way to a point. If the light is at the point itself ([`COINCIDENT`]) l is n and the distance 0.
+    pub(super) fn arriving_at(&self, surface: &ShadedPoint<T>) -> Arrival<T> {
         let least = T::from_f64(GRAZING.into());
         let from_eye = length(surface.position);
         let (l, d, grazing) = match toward(surface.position, self.position) {
@@ -191,7 +190,8 @@ impl<T: Real> Point<T> {
             _ => (surface.normal, T::zero(), T::zero()),
         };
         let window = self.range.map_or(T::one(), |range| range_window(d, range));
-        Incidence { l, grazing, weight: attenuation(self.attenuation, d) * window }
+        let attenuation = attenuation(self.attenuation, d);
+        Arrival { l, distance: Some(d), grazing, attenuation, window, cos_phi: None, spot: T::one() }
     }
     // ANCHOR_END: arriving_at
 
@@ -297,8 +297,12 @@ impl Point<f64> {
 }
 
 impl<T: Real> LightSource<T> for Point<T> {
-    fn incidence(&self, surface: &ShadedPoint<T>) -> Option<Incidence<T>> {
+    fn arrival(&self, surface: &ShadedPoint<T>) -> Option<Arrival<T>> {
         Some(self.arriving_at(surface))
+    }
+
+    fn colors(&self) -> Option<Colors<T>> {
+        Some(self.colors)
     }
 
     fn irradiance(
@@ -308,7 +312,7 @@ impl<T: Real> LightSource<T> for Point<T> {
         reflectance: Reflectance,
         material: &Coefficients<T>,
     ) -> Irradiance<T> {
-        self.arriving(&self.arriving_at(surface), (surface, view), (reflectance, material))
+        self.arriving(&self.arriving_at(surface).incidence(), (surface, view), (reflectance, material))
     }
 
     fn steady_ambient(&self) -> [T; 3] {
@@ -341,6 +345,10 @@ fn point_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Material, t
 
     fn validate(&self) -> Result<(), InvalidValue> {
         self.validate()
+    }
+
+    fn ambient_alone(&self) -> Self {
+        Self { diffuse: LinearRgba::BLACK, specular: LinearRgba::BLACK, ..*self }
     }
 
     fn placed(&self, frame: &impl LightFrame) -> Result<Light<f64>, InvalidValue> {

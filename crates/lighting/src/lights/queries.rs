@@ -24,6 +24,13 @@ macro_rules! light_queries {
                 };
             }
 
+            /// The light of an entity, if it has one.
+            pub fn from_entity(entity: EntityRef) -> Option<Self> {
+                let none = None;
+                $(let none = none.or_else(|| entity.get::<super::$component>().map(|light| Self::$kind(*light)));)*
+                none
+            }
+
             /// Whether an entity has a light of this kind.
             pub fn is_kind_of(self, entity: EntityRef) -> bool {
                 match self {

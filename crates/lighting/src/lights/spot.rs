@@ -7,11 +7,11 @@ use super::{Light, LightFrame, LightKind, LightNeeds, LightSource, LightView, Po
 use crate::Reflectance;
 use crate::bounds::{LitTerms, Receiver, TermBounds};
 use crate::equations::vector::{dot, neg};
-use crate::equations::{Coefficients, Eye, Incidence, Irradiance, Real, ShadedPoint, unit};
+use crate::equations::{Arrival, Coefficients, Eye, Irradiance, Real, ShadedPoint, unit};
 use crate::falloff::{Attenuation, Cone, ConeTerms, spot_factor};
 use crate::field::{Described, Field, FieldPlace, rgb};
 use crate::invalid::{Fields, InvalidValue};
-use crate::light_colors::meaning;
+use crate::light_colors::{Colors, meaning};
 use crate::range::Range;
 use crate::record::{LightRecord, number};
 
@@ -122,17 +122,21 @@ pub struct Spot<T> {
 }
 
 impl<T: Real> Spot<T> {
-    /// Its direction and strength at a point.
-    fn arriving_at(&self, surface: &ShadedPoint<T>) -> Incidence<T> {
-        let incident = self.point.arriving_at(surface);
-        let spot = spot_factor(dot(neg(incident.l), self.cone.direction), &self.cone);
-        Incidence { weight: incident.weight * spot, ..incident }
+    /// Its way to a point.
+    fn arriving_at(&self, surface: &ShadedPoint<T>) -> Arrival<T> {
+        let arrival = self.point.arriving_at(surface);
+        let cos_phi = dot(neg(arrival.l), self.cone.direction);
+        Arrival { cos_phi: Some(cos_phi), spot: spot_factor(cos_phi, &self.cone), ..arrival }
     }
 }
 
 impl<T: Real> LightSource<T> for Spot<T> {
-    fn incidence(&self, surface: &ShadedPoint<T>) -> Option<Incidence<T>> {
+    fn arrival(&self, surface: &ShadedPoint<T>) -> Option<Arrival<T>> {
         Some(self.arriving_at(surface))
+    }
+
+    fn colors(&self) -> Option<Colors<T>> {
+        self.point.colors()
     }
 
     fn irradiance(
@@ -142,7 +146,7 @@ impl<T: Real> LightSource<T> for Spot<T> {
         reflectance: Reflectance,
         material: &Coefficients<T>,
     ) -> Irradiance<T> {
-        self.point.arriving(&self.arriving_at(surface), (surface, view), (reflectance, material))
+        self.point.arriving(&self.arriving_at(surface).incidence(), (surface, view), (reflectance, material))
     }
 
     fn steady_ambient(&self) -> [T; 3] {
@@ -175,6 +179,10 @@ fn spot_light(light: Light, p: vec3f, n: vec3f, v: vec3f, material: Material, te
 
     fn validate(&self) -> Result<(), InvalidValue> {
         self.validate()
+    }
+
+    fn ambient_alone(&self) -> Self {
+        Self { light: self.light.ambient_alone(), ..*self }
     }
 
     fn placed(&self, frame: &impl LightFrame) -> Result<Light<f64>, InvalidValue> {

@@ -34,6 +34,8 @@ class Options(TypedDict, total=False):
     lights: str
     shading: str
     reflectance: str
+    only: str
+    light: str | int
     samples: int
     intensity: str
     tolerance: str | float | tuple[float, float]

@@ -9,6 +9,7 @@ from typing import Any, Unpack, overload
 import numpy.typing as npt
 
 from ._arguments import Options
+from ._explain import Explanation
 from ._mesh import Mesh, placed
 from ._picture import Picture
 from ._scene import Outputs, Scene
@@ -82,6 +83,11 @@ def animate(mesh: Any, file: str | os.PathLike[str], *, frames: int | None = Non
             **options: Unpack[Options]) -> None:
     """Writes the animation of a scene, or a turn of the camera around a mesh, as an animated PNG."""
     scene_of(mesh).animate(file, frames, fps=fps, size=size, **options)
+
+
+def explain(mesh: Any, at: Sequence[int], *, poses: Sequence[Any] | None = None, **arguments: Any) -> Explanation:
+    """Explains the pixel in column and row `at` of a picture of a mesh or a scene: see `Scene.explain`."""
+    return scene_of(mesh, None, poses).explain(at, **arguments)
 
 
 def verify(picture: Any, scene: Any, **arguments: Any) -> dict[str, Any]:

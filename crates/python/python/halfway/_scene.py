@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,6 +14,7 @@ import numpy.typing as npt
 
 from . import _halfway
 from ._arguments import COLOR_OPTIONS, Color, Options, as_json, color_text, linear, matrix, numbers, option_texts, size_of
+from ._explain import Explanation
 from ._mesh import Mesh, Placed, placed
 from ._parts import COLORS, placed_by
 from ._picture import Comparison, Picture, as_picture, from_pixels, save_animation
@@ -505,6 +507,24 @@ class Scene:
         drawing, _ = self._drawing(given._size, camera, options, False)
         judged: dict[str, Any] = drawing.judge(np.ascontiguousarray(np.asarray(given)), given._size, float(max))
         return judged
+
+    def explain(self, at: Sequence[int], *, size: object = None, camera: Any = None, time: float = 0.0,
+                **options: Unpack[Options]) -> Explanation:
+        """Explains the pixel in column and row `at`, counted from 0 from the top left, of a picture of `size` pixels: its
+        surfaces, every light and term there, their sum, and its encoding, as the reference renderer computes them. The
+        other arguments are those of `render`."""
+        try:
+            x, y = (operator.index(place) for place in at)
+        except (TypeError, ValueError):
+            raise TypeError(f"at: {at!r}; expected (column, row), two whole numbers") from None
+        if x < 0 or y < 0:
+            raise ValueError(f"at: {(x, y)}; expected a column and a row of the picture, 0 or more")
+        (moment,) = numbers([time], "time", 1)
+        drawing, is_new = self._drawing(size, camera, options, True)
+        values, text, latex = drawing.explain(x, y, moment)
+        if is_new:
+            self._warn(drawing.take_warnings())
+        return Explanation(json.loads(values), text, latex)
 
     def compare(self, picture: Any, **options: Any) -> Comparison:
         """Compares a picture with the reference renderer's."""

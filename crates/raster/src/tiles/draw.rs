@@ -78,7 +78,8 @@ impl Worker {
         let is_clear = jobs.peek().is_none();
         let was_clear = bands.set_clear(tile, is_clear && !pass.shows_sky());
         if is_clear {
-            if !was_clear {
+            // A sky may have come.
+            if !was_clear || pass.shows_sky() {
                 bands.fill(tile, &mut self.own, |rows| {
                     simd.vectorize(
                         #[inline(always)]

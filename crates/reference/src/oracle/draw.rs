@@ -10,6 +10,7 @@ use super::Oracle;
 use super::error::Stopped;
 use super::layers::Layers;
 use super::raster::{Hit, Primitive, TILE};
+use super::solid::Color;
 use crate::Image;
 
 /// A finished part of the picture.
@@ -56,21 +57,35 @@ impl Oracle {
         let UVec2 { x, y } = self.size;
         let [width, height] = [x - origin[0], y - origin[1]].map(|left| left.min(TILE));
         let mut part = DrawnTile { origin, width, pixels: vec![([0.0; 3], false); (width * height) as usize] };
-        let n = self.supersampling;
-        let share = 1.0 / f64::from(n * n);
-        for sample in 0..n * n {
-            let offset = [sample % n, sample / n].map(|i| (f64::from(i) + 0.5) / f64::from(n));
+        let share = self.share();
+        for offset in self.offsets() {
             for (number, layers) in self.layers(tile, &part, offset).iter().enumerate() {
                 let (row, column) = (number as u32 / width, number as u32 % width);
                 let [x, y] = [origin[0] + column, origin[1] + row].map(f64::from);
                 let behind = self.scene.behind(self.scene.view.direction(x + offset[0], y + offset[1]));
                 let color = layers.color(&self.scene, behind, self.clamps());
                 let (sum, covered) = &mut part.pixels[number];
-                *sum = [0, 1, 2].map(|k| sum[k] + share * color[k]);
+                *sum = with_share(*sum, share, color);
                 *covered |= !layers.is_empty();
             }
         }
         part
+    }
+
+    /// The places of the samples in a pixel, from its top left corner, row by row.
+    pub(super) fn offsets(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let n = self.supersampling;
+        (0..n * n).map(move |sample| [sample % n, sample / n].map(|i| (f64::from(i) + 0.5) / f64::from(n)))
+    }
+
+    /// The share of a sample in its pixel.
+    fn share(&self) -> f64 {
+        1.0 / f64::from(self.supersampling * self.supersampling)
+    }
+
+    /// The colour of a pixel of these samples.
+    pub(super) fn mean(&self, samples: impl Iterator<Item = Color>) -> Color {
+        samples.fold([0.0; 3], |sum, color| with_share(sum, self.share(), color))
     }
 
     /// The layers on the rays through the pixels of a part, each at `offset` from the pixel's top left corner.
@@ -126,6 +141,11 @@ impl Oracle {
         }
         Image::new(width, height, colors).with_coverage(covered)
     }
+}
+
+/// A sum with the share of one more sample.
+fn with_share(sum: Color, share: f64, color: Color) -> Color {
+    [0, 1, 2].map(|k| sum[k] + share * color[k])
 }
 
 /// The pixels, of `count` from `first` on, whose samples at `offset` lie from `low` to `high`.

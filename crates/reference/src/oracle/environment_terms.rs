@@ -40,7 +40,7 @@ impl OracleScene {
 
     /// The position of a hit and the front's normal there: the triangle's own under flat shading, else the interpolated
     /// one, which images turn only if a term is shaded at the fragments.
-    fn point(&self, solid: &Solid, hit: &Hit) -> (DVec3, Color) {
+    pub(super) fn point(&self, solid: &Solid, hit: &Hit) -> (DVec3, Color) {
         let (triangle, [u, v, w]) = match hit.place {
             HitPoint::Triangle(triangle, weights) => (triangle, weights),
             HitPoint::Surface { p, n } => return (p, n.to_array()),

@@ -65,6 +65,21 @@ pub enum OracleError {
         /// The most pixels that are drawn.
         limit: u64,
     },
+    /// A pixel outside the picture.
+    #[error(
+        "({x}, {y}) lies outside the picture of {width} × {height} pixels; expected a column from 0 to {} and a row from 0 \
+         to {}", width - 1, height - 1
+    )]
+    Outside {
+        /// The column.
+        x: u32,
+        /// The row.
+        y: u32,
+        /// The picture's width in pixels.
+        width: u32,
+        /// The picture's height in pixels.
+        height: u32,
+    },
 }
 
 /// The drawing was stopped from outside.
@@ -78,4 +93,9 @@ pub(super) const ALWAYS: &str = "queries can be had of every world";
 /// An entity's name for an error: its `Name`, or its number.
 pub(super) fn label(entity: Entity, name: Option<&Name>) -> String {
     name.map_or_else(|| format!("entity {entity}"), |name| format!("\"{name}\""))
+}
+
+/// An entity's name, or its number.
+pub(super) fn plain_name(entity: Entity, name: Option<&Name>) -> String {
+    name.map_or_else(|| format!("entity {entity}"), |name| name.as_str().to_owned())
 }

@@ -51,11 +51,18 @@ impl Layers {
 
     /// The intensities of all visible hits, blended over `behind`; each is first clamped to 1 if `clamp` is set.
     pub(super) fn color(&self, scene: &OracleScene, behind: Color, clamp: bool) -> Color {
-        let written = |i: Color| if clamp { i.map(|channel| channel.min(1.0)) } else { i };
-        self.visible(scene).fold(written(behind), |behind, hit| {
-            let opacity = scene.opacity(hit);
-            let over = written(scene.value(hit));
-            [0, 1, 2].map(|k| if opacity < 1.0 { opacity * over[k] + (1.0 - opacity) * behind[k] } else { over[k] })
+        self.visible(scene).fold(written(behind, clamp), |behind, hit| {
+            blended(scene.opacity(hit), written(scene.value(hit), clamp), behind)
         })
     }
+}
+
+/// An intensity as it is written: clamped to 1 if `clamp` is set.
+pub(super) fn written(i: Color, clamp: bool) -> Color {
+    if clamp { i.map(|channel| channel.min(1.0)) } else { i }
+}
+
+/// A colour of this opacity over the one behind it.
+pub(super) fn blended(opacity: f64, over: Color, behind: Color) -> Color {
+    [0, 1, 2].map(|k| if opacity < 1.0 { opacity * over[k] + (1.0 - opacity) * behind[k] } else { over[k] })
 }

@@ -22,6 +22,7 @@ struct PointOnMap {
 }
 
 /// An anisotropic highlight lobe about a normal: see [`axial_exponent`].
+#[derive(Clone, Copy, Debug)]
 pub(super) struct AnisotropicLobe {
     axes: [Color; 2],
     widths: Color,

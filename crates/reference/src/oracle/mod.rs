@@ -2,13 +2,14 @@
 //!
 //! `scene` transforms the world's entities into eye space (`view`, `solid`), `raster` intersects the ray through a
 //! point of the picture, `shade` computes the colour of a hit and `shows` other values, `layers` blends the hits of a ray,
-//! `draw` does so for every pixel and `probe` for any point. `possible` lists the other colours that a pixel may show, for
-//! the judge. `student` draws the scene with mistakes.
+//! `draw` does so for every pixel, `probe` for any point, and `explained` says how a pixel came to its colour. `possible`
+//! lists the other colours that a pixel may show, for the judge. `student` draws the scene with mistakes.
 
 mod draw;
 mod environment;
 mod environment_terms;
 mod error;
+mod explained;
 mod grid;
 mod layers;
 mod mapped;
@@ -127,6 +128,13 @@ impl Oracle {
     #[must_use]
     pub fn with_supersampling(self, n: u32) -> Self {
         Self { supersampling: n.clamp(1, Self::MAX_SUPERSAMPLING), ..self }
+    }
+
+    /// Averages as many samples a pixel as the camera has, in as many squares.
+    #[must_use]
+    pub fn with_samples_of_camera(self) -> Self {
+        let side = self.scene.samples.count().isqrt();
+        self.with_supersampling(side)
     }
 
     /// Whether each surface, and the background, is clamped to 1 before it is blended, as in 8-bit pictures. Default

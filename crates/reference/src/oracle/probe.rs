@@ -43,7 +43,7 @@ impl Oracle {
             triangle: hit.on_triangle().map(|(triangle, _)| triangle),
             front: hit.front,
             depth: hit.depth,
-            position: self.scene.view.world_from_point(ray.origin + ray.direction * hit.depth),
+            position: self.scene.view.world_from_point(ray.at(hit.depth)),
         });
         Probe { color: layers.color(&self.scene, self.scene.behind(ray.direction), self.clamps()), nearest }
     }
@@ -56,7 +56,7 @@ impl Oracle {
     }
 
     /// Everything on the ray through a point of the picture, hidden or not, in the order of drawing.
-    fn hits(&self, x: f64, y: f64) -> Vec<Hit> {
+    pub(super) fn hits(&self, x: f64, y: f64) -> Vec<Hit> {
         let (scene, at) = (&self.scene, self.scene.view.at(x, y));
         let near: Vec<&Primitive> = self.tiles().at(x, y).filter(|primitive| primitive.reaches(x, y)).collect();
         let mut hits = Vec::new();
@@ -71,7 +71,7 @@ impl Oracle {
         hits
     }
 
-    fn layers_of(&self, hits: &[Hit]) -> Layers {
+    pub(super) fn layers_of(&self, hits: &[Hit]) -> Layers {
         let mut layers = Layers::default();
         for hit in hits {
             layers.add(&self.scene, *hit);

@@ -8,15 +8,15 @@ use halfway_asset::Assets;
 use halfway_lighting::equations::{self, Light, rgb, vector::add};
 use halfway_lighting::lights::{LightFrame, LightQueries, LightSource};
 use halfway_lighting::{
-    AlphaMode, BackMaterial, Camera, Edges, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Load, Material,
-    Propagation, Reflectance, Samples, Shading, Shown, VertexColors, Viewport, current_camera, light_direction,
-    light_position, light_up, propagation,
+    AlphaMode, BackMaterial, Camera, Edges, Encoding, Faces, Fields, GlobalAmbient, Intensity, InvalidValue, Load,
+    Material, Propagation, Reflectance, Samples, Shading, Shown, VertexColors, Viewport, current_camera,
+    light_direction, light_position, light_up, propagation,
 };
 use halfway_mesh::{Mesh, Mesh3d, SpawnOrder};
 use halfway_texture::{MapKind, Maps, Pyramid, SolidTexture, SurfaceMap, Texture};
 
 use super::environment::OracleEnvironment;
-use super::error::{ALWAYS, OracleError, label};
+use super::error::{ALWAYS, OracleError, label, plain_name};
 use super::maps::MapSource;
 use super::shows::Shows;
 use super::solid::{Appearance, Color, Solid};
@@ -31,11 +31,14 @@ pub(super) struct OracleScene {
     pub(super) background: Color,
     pub(super) samples: Samples,
     pub(super) intensity: Intensity,
+    pub(super) encoding: Encoding,
+    /// Ga.
+    pub(super) global_ambient: Color,
     /// Ga, and La of the lights that do not attenuate it.
     pub(super) ambient: Color,
     pub(super) lights: Vec<Light<f64>>,
-    /// The entities of the lights, in their order.
-    pub(super) light_entities: Vec<Entity>,
+    /// The entities and the names of the lights, in their order.
+    pub(super) light_names: Vec<(Entity, String)>,
     pub(super) environment: Option<OracleEnvironment>,
     /// From the nearest to the farthest object between the near and the far plane.
     pub(super) depth_span: f64,
@@ -47,7 +50,7 @@ impl OracleScene {
     pub(super) fn from_world(world: &mut World, size: UVec2) -> Result<Self, OracleError> {
         require_propagation(world)?;
         let defaults = view_defaults(world, size)?;
-        let (ambient, lights, light_entities) = lights(world, &defaults.view)?;
+        let SceneLights { global_ambient, ambient, lights, names: light_names } = lights(world, &defaults.view)?;
         let mut environment = OracleEnvironment::from_world(world, &defaults.view)?;
         if let (Load::Keep, Some(environment)) = (defaults.load, &mut environment) {
             environment.sky = None;
@@ -55,7 +58,7 @@ impl OracleScene {
         let solids = solids(world, &defaults)?;
         let depth_span = depth_span(&defaults.view, &solids);
         let viewer = defaults.camera.eye();
-        let Camera { background, samples, intensity, .. } = defaults.camera;
+        let Camera { background, samples, intensity, encoding, .. } = defaults.camera;
         let background = rgb(background);
         Ok(Self {
             view: defaults.view,
@@ -64,9 +67,11 @@ impl OracleScene {
             background,
             samples,
             intensity,
+            encoding,
+            global_ambient,
             ambient,
             lights,
-            light_entities,
+            light_names,
             environment,
             depth_span,
             solids,
@@ -131,19 +136,24 @@ fn view_defaults(world: &mut World, size: UVec2) -> Result<ViewDefaults, OracleE
     })
 }
 
-/// The ambient light, and the lights with their entities.
-type PlacedLights = (Color, Vec<Light<f64>>, Vec<Entity>);
+/// The lights of a scene and its ambient light: Ga, and the sum with La of the lights that do not attenuate it.
+struct SceneLights {
+    global_ambient: Color,
+    ambient: Color,
+    lights: Vec<Light<f64>>,
+    names: Vec<(Entity, String)>,
+}
 
-fn lights(world: &mut World, view: &PictureView) -> Result<PlacedLights, OracleError> {
+fn lights(world: &mut World, view: &PictureView) -> Result<SceneLights, OracleError> {
     let global = world.get_resource::<GlobalAmbient>().copied().unwrap_or_default();
     global.validate().map_err(|source| OracleError::Invalid { entity: "resource".into(), source })?;
 
-    let (mut lights, mut entities, mut refused) = (Vec::new(), Vec::new(), None);
+    let (mut lights, mut names, mut refused) = (Vec::new(), Vec::new(), None);
     let mut queries = SystemState::<LightQueries>::new(world);
     queries.get(world).expect(ALWAYS).visit(|entity, name, light, at| match light.placed(&InEyeSpace { view, at }) {
         Ok(light) => {
             lights.push(light);
-            entities.push(entity);
+            names.push((entity, plain_name(entity, name)));
         }
         Err(source) => {
             refused.get_or_insert_with(|| OracleError::Invalid { entity: label(entity, name), source });
@@ -152,7 +162,8 @@ fn lights(world: &mut World, view: &PictureView) -> Result<PlacedLights, OracleE
     if let Some(error) = refused {
         return Err(error);
     }
-    Ok((lights.iter().fold(global.ga(), |sum, light| add(sum, light.steady_ambient())), lights, entities))
+    let ambient = lights.iter().fold(global.ga(), |sum, light| add(sum, light.steady_ambient()));
+    Ok(SceneLights { global_ambient: global.ga(), ambient, lights, names })
 }
 
 /// The frame of a light's entity in eye space.
@@ -189,7 +200,7 @@ type Object<'a> = (
     Option<&'a Faces>,
     Option<&'a AlphaMode>,
     Option<&'a VertexColors>,
-    (Option<&'a Maps>, Option<&'a SolidTexture>, Option<&'a Edges>),
+    (Option<&'a Maps>, Option<&'a SolidTexture>, Option<&'a Edges>, Option<&'a ChildOf>),
 );
 
 fn solids(world: &mut World, defaults: &ViewDefaults) -> Result<Vec<Solid>, OracleError> {
@@ -201,9 +212,19 @@ fn solids(world: &mut World, defaults: &ViewDefaults) -> Result<Vec<Solid>, Orac
     let has_surface = |own: Option<&Edges>| own.or(defaults.edges.as_ref()).is_none_or(|edges| edges.surface);
     let meshes = (world.get_resource::<Assets<Mesh>>(), world.get_resource::<Assets<Texture>>());
     let mut objects: Vec<_> =
-        query.iter(world).filter(|(entity, .., (_, _, edges))| is_shown(*entity) && has_surface(*edges)).collect();
+        query.iter(world).filter(|(entity, .., (_, _, edges, _))| is_shown(*entity) && has_surface(*edges)).collect();
     objects.sort_unstable_by_key(|(entity, _, _, order, ..)| (**order, *entity));
-    let solids = objects.into_iter().map(|object| solid(object, meshes, defaults));
+    let world: &World = world;
+    let name = |object: &Object| {
+        let (entity, _, _, _, own, .., (.., parent)) = object;
+        let above = parent.and_then(|parent| world.get::<Name>(parent.parent()));
+        let own = plain_name(*entity, *own);
+        above.map_or_else(|| own.clone(), |above| format!("{above}/{own}"))
+    };
+    let solids = objects.into_iter().map(|object| {
+        let name = name(&object);
+        solid(object, meshes, defaults).map(|solid| solid.named(name))
+    });
     let (mut blended, mut solids): (Vec<_>, Vec<_>) =
         solids.collect::<Result<Vec<_>, _>>()?.into_iter().partition(|solid| solid.blend);
     // Stable: at equal depth the first spawned is drawn first.
@@ -226,7 +247,7 @@ fn solid(
         faces,
         alpha,
         colors,
-        (maps, cut_from, _),
+        (maps, cut_from, ..),
     ): Object,
     (meshes, textures): (Option<&Assets<Mesh>>, Option<&Assets<Texture>>),
     defaults: &ViewDefaults,

@@ -67,6 +67,8 @@ pub(super) struct Side {
 #[derive(Clone, Debug)]
 pub(super) struct Solid {
     pub(super) entity: Entity,
+    /// The name of the entity, after the name of the one that it is a part of.
+    pub(super) name: String,
     pub(super) mesh: Mesh,
     pub(super) eye_from_model: DAffine3,
     /// Model-space normals to eye space.
@@ -136,6 +138,7 @@ impl Solid {
         };
         Self {
             entity,
+            name: String::new(),
             eye_from_model,
             normal_matrix,
             mirrored,
@@ -159,6 +162,10 @@ impl Solid {
             smooth: None,
             mesh,
         }
+    }
+
+    pub(super) fn named(self, name: String) -> Self {
+        Self { name, ..self }
     }
 
     pub(super) fn set_mode(&mut self, mode: Mode) {

@@ -180,6 +180,13 @@ pub(super) struct OracleRay {
     pub(super) direction: DVec3,
 }
 
+impl OracleRay {
+    /// The point at a depth.
+    pub(super) fn at(&self, depth: f64) -> DVec3 {
+        self.origin + self.direction * depth
+    }
+}
+
 /// A `GlobalTransform` in f64.
 pub(super) fn affine(transform: &GlobalTransform) -> DAffine3 {
     let affine = transform.affine();

@@ -5,6 +5,7 @@ mod bits;
 mod blending;
 mod coverage;
 mod errors;
+mod explained;
 mod folds;
 mod four;
 mod grid;

@@ -6,7 +6,7 @@ mod views;
 use bevy_color::LinearRgba;
 use bevy_math::Vec3;
 use halfway_lighting::{
-    Edges, Faces, Framing, HiddenEdges, Intensity, LightRig, Material, Reflectance, Shading, Show, Tolerance,
+    Edges, Faces, Framing, HiddenEdges, Intensity, LightRig, Material, Reflectance, Shading, Show, Term, Tolerance,
     VertexColors, View, WhichEdges, Width,
 };
 use halfway_mesh::Normals;
@@ -95,6 +95,10 @@ options! {
     reflectance: Reflectance = parse::reflectance,
     /// Samples a pixel: 1, 4, 16 or 64.
     samples: u32 = parse::samples,
+    /// The only term that is drawn.
+    only: Term = parse::only,
+    /// The only light that is drawn, by its name or its number, counted from 0.
+    light: String = parse::words,
     /// The treatment of intensities above 1.
     intensity: Intensity = parse::intensity,
     /// The allowed difference from the exact picture.
@@ -150,6 +154,10 @@ impl SceneOptions {
         }
         if let Some(intensity) = self.intensity {
             scene.intensity = intensity;
+        }
+        scene.only = self.only.or(scene.only);
+        if let Some(light) = &self.light {
+            scene.light = Some(light.as_str().into());
         }
         if let Some(animation) = &self.animation {
             scene.animation = Some(animation.as_str().into());

@@ -3,8 +3,8 @@
 use bevy_color::{ColorToComponents, LinearRgba, Srgba};
 use bevy_math::Vec3;
 use halfway_lighting::{
-    Choices, Edges, Faces, Intensity, LightRig, Material, Reflectance, Shading, Show, Tolerance, View, WhichEdges,
-    Width,
+    Choices, Edges, Faces, Intensity, LightRig, Material, Reflectance, Shading, Show, Term, Tolerance, View,
+    WhichEdges, Width,
 };
 use halfway_mesh::{NormalWeighting, Normals};
 
@@ -274,6 +274,10 @@ pub(super) fn view(text: &str) -> Result<View, String> {
 }
 
 pub(super) fn shading(text: &str) -> Result<Shading, String> {
+    choice(text)
+}
+
+pub(super) fn only(text: &str) -> Result<Term, String> {
     choice(text)
 }
 

@@ -111,7 +111,7 @@ impl HitSheet {
     /// the whole picture, its encoding or its rows, do not show in them.
     pub(crate) fn drawn(&self, mistakes: Mistakes) -> Vec<Color> {
         let scene = &self.open.scene;
-        let student = Student::new(scene, &self.open.scene.light_entities, mistakes);
+        let student = Student::new(scene, mistakes);
         let policy = if mistakes.has(Mistake::ToneMappingMissing) { Intensity::Clamp } else { self.open.policy() };
         let clamps = self.open.clamp && policy == Intensity::Clamp && !mistakes.has(Mistake::ClampMissing);
         let color = |pixel: &PixelHits| {

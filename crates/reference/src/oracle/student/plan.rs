@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use bevy_ecs::entity::Entity;
 use bevy_math::{DMat3, DVec3};
 use halfway_lighting::equations::vector::{add, normalize, scale, sub};
 use halfway_lighting::equations::{Coefficients, Eye, Light, Point, Transcendental};
@@ -46,10 +45,9 @@ pub(super) struct StudentSolid<'a> {
 }
 
 impl<'a> Student<'a> {
-    /// `entities` are those of the scene's lights.
-    pub(super) fn new(scene: &'a OracleScene, entities: &[Entity], mistakes: Mistakes) -> Self {
+    pub(super) fn new(scene: &'a OracleScene, mistakes: Mistakes) -> Self {
         let lights: Vec<Light<f64>> =
-            kept(scene, entities, mistakes).into_iter().map(|light| mistaken_light(scene, light, mistakes)).collect();
+            kept(scene, mistakes).into_iter().map(|light| mistaken_light(scene, light, mistakes)).collect();
         let (ambient, bare_ambient) = ambient(scene, &lights, mistakes);
         let positional = scene.lights.iter().find_map(|light| point(light).map(|point| point.attenuation));
         Self {
@@ -79,8 +77,8 @@ fn point<T: Copy>(light: &Light<T>) -> Option<&Point<T>> {
 
 /// The lights that the student counts. First and last are those of the scene file, whose entities are spawned in its
 /// order.
-fn kept(scene: &OracleScene, entities: &[Entity], mistakes: Mistakes) -> Vec<Light<f64>> {
-    let all = || entities.iter().zip(&scene.lights);
+fn kept(scene: &OracleScene, mistakes: Mistakes) -> Vec<Light<f64>> {
+    let all = || scene.light_names.iter().map(|(entity, _)| entity).zip(&scene.lights);
     let only = if mistakes.has(Mistake::FirstLightOnly) {
         all().min_by_key(|(entity, _)| entity.index())
     } else if mistakes.has(Mistake::LastLightOnly) {
