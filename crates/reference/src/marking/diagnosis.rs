@@ -86,16 +86,32 @@ pub struct Marker {
     size: (u32, u32),
 }
 
+impl Diagnosis {
+    /// The share of the difference that the best explanation explains, or the nearest mistake; 0 if there is none.
+    pub fn share(&self) -> f64 {
+        self.explanations.first().or(self.nearest.as_ref()).map_or(0.0, |it| it.share)
+    }
+}
+
 impl Marker {
-    /// For pictures of what `oracle` draws, in bytes of this encoding. Pictures of bytes need an oracle that
-    /// [clamps](Oracle::with_clamping).
+    /// For pictures of what `oracle` draws, one sample a pixel, in bytes of this encoding. Pictures of bytes need an oracle
+    /// that [clamps](Oracle::with_clamping).
     pub fn new(oracle: &Oracle, encoding: Encoding) -> Self {
+        Self::with_samples(oracle, encoding, false)
+    }
+
+    /// The same for pictures whose pixels are the mean of several samples; four are taken.
+    pub fn smoothed(oracle: &Oracle, encoding: Encoding) -> Self {
+        Self::with_samples(oracle, encoding, true)
+    }
+
+    fn with_samples(oracle: &Oracle, encoding: Encoding, is_smooth: bool) -> Self {
         let step = match oracle.policy() {
             // The brightest pixel matters.
             Intensity::Renormalize { .. } => 1,
             _ => step(oracle.size()),
         };
-        Self { pictures: MistakenPictures::new(oracle, step, encoding), size: oracle.size() }
+        Self { pictures: MistakenPictures::new(oracle, (step, is_smooth), encoding), size: oracle.size() }
     }
 
     /// Finds the mistakes that explain how `actual` differs from the right picture.

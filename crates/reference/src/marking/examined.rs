@@ -67,11 +67,21 @@ pub fn examine(
         let of_one = judged(&Oracle::new(world, size)?.with_clamping(bars.are_clamped()))?;
         verdict = if of_one.is_within() { of_one } else { verdict };
     }
-    let diagnosis = if verdict.is_within() { None } else { Some(Marker::new(&oracle, encoding).diagnose(actual)?) };
+    let diagnosis = if verdict.is_within() { None } else { Some(diagnosed(&oracle, actual, encoding, smooths)?) };
     let explanations = diagnosis.iter().flat_map(|it| it.explanations.iter().chain(&it.nearest));
     let name = |object: Entity| Some((object, world.get::<Name>(object)?.to_string()));
     let names = explanations.filter_map(|it| it.object).filter_map(name).collect();
     Ok(Examined { verdict, diagnosis, names })
+}
+
+/// The diagnosis of a picture with one sample a pixel, or with several if the scene asks for them and they explain more.
+fn diagnosed(oracle: &Oracle, actual: &Image, encoding: Encoding, smooths: bool) -> Result<Diagnosis, SizeMismatch> {
+    let of_one = Marker::new(oracle, encoding).diagnose(actual)?;
+    if !smooths || !of_one.explanations.is_empty() {
+        return Ok(of_one);
+    }
+    let of_four = Marker::smoothed(oracle, encoding).diagnose(actual)?;
+    Ok(if of_four.share() > of_one.share() { of_four } else { of_one })
 }
 
 impl Examined {

@@ -41,9 +41,9 @@ impl Drawn {
 }
 
 impl MistakenPictures {
-    /// For every `step`-th pixel of every `step`-th row.
-    pub(super) fn new(oracle: &Oracle, step: u32, encoding: Encoding) -> Self {
-        let sheet = HitSheet::new(oracle, step);
+    /// For every `step`-th pixel of every `step`-th row, which shows its centre or is smooth.
+    pub(super) fn new(oracle: &Oracle, (step, is_smooth): (u32, bool), encoding: Encoding) -> Self {
+        let sheet = HitSheet::new(oracle, step, is_smooth);
         Self {
             places: sheet.places().collect(),
             right: Drawn::new(&sheet, encoding, Mistakes::NONE),

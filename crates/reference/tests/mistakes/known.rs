@@ -1,9 +1,11 @@
 //! Pictures with one known mistake.
 
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 
-use halfway_lighting::Encoding;
-use halfway_reference::marking::{Marker, mistaken_picture};
+use halfway_lighting::{Camera, Encoding, Samples};
+use halfway_reference::marking::{Marker, examine, mistaken_picture};
+use halfway_reference::metrics::Bars;
 use halfway_reference::mistakes::{Mistake, Mistakes};
 use image::RgbImage;
 use rayon::prelude::*;
@@ -119,7 +121,7 @@ fn smoothed_edges_do_not_hide_a_mistake() {
         .par_iter()
         .filter_map(|(name, mistake)| {
             let task = tasks.iter().find(|task| task.name == *name).expect("a task of this name");
-            let picture = small::draw_smoothed(task, (*mistake).into(), 4);
+            let picture = small::draw_smoothed(task, (*mistake).into(), &small::grid(4));
             let found = Marker::new(&task.oracle(), task.encoding).diagnose(&image(&picture, task.encoding));
             let found = found.expect("pictures of one size");
             let first = found.explanations.first();
@@ -128,4 +130,36 @@ fn smoothed_edges_do_not_hide_a_mistake() {
         })
         .collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn mistakes_are_named_in_smoothed_pictures_of_scenes_that_ask_for_them() {
+    let pictures = [
+        ("ball", Mistake::FlatForSmooth),
+        ("eggs", Mistake::FaceNormals),
+        ("doughnut", Mistake::FlatForSmooth),
+        ("facets", Mistake::FlatFromFirstVertex),
+        ("facets", Mistake::GammaMissing),
+        ("crowd", Mistake::GouraudForPhong),
+        ("road", Mistake::AttenuationMissing),
+    ];
+    // The places of multisampling's four samples, and four of a student's own.
+    let standard = [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
+    let own = small::grid(2);
+    let tasks = tasks::all();
+    for (points, (name, mistake)) in [&standard[..], &own].into_iter().flat_map(|it| pictures.map(|of| (it, of))) {
+        let task = tasks.iter().find(|task| task.name == name).expect("a task of this name");
+        let mut world = task.world();
+        world.query::<&mut Camera>().single_mut(&mut world).expect("a camera").samples = Samples::Four;
+        let picture = image(&small::draw_smoothed(task, mistake.into(), points), task.encoding);
+        let bars = Bars { equal: 0.0, ..Bars::bytes(task.encoding) };
+        let found = examine(&mut world, &picture, task.encoding, bars, &|_, _| ControlFlow::Continue(()));
+        let found = found.expect("the task can be drawn").diagnosis.expect("it is wrong");
+        println!("{mistake} in {name}, smoothed: {:.3}", found.share());
+        // Facets of a pixel's size are as the samples lie: with others than the standard ones it may only be the nearest.
+        let first = found.explanations.first().or(found.nearest.as_ref().filter(|it| points == own && it.share > 0.9));
+        let causes = first.map_or(&[][..], |it| &it.causes);
+        let is_named = causes.len() == 1 && causes[0].alternatives.contains(&mistake);
+        assert!(is_named, "{mistake} in {name}: {found:?}");
+    }
 }

@@ -19,20 +19,25 @@ pub(crate) fn can_make(mistake: Mistake) -> bool {
 
 /// Draws the task with these mistakes, one ray a pixel.
 pub(crate) fn draw(task: &Task, mistakes: Mistakes) -> RgbImage {
-    draw_smoothed(task, mistakes, 1)
+    draw_smoothed(task, mistakes, &[[0.5, 0.5]])
 }
 
-/// Draws the task with these mistakes, the mean of `n` × `n` rays a pixel.
-pub(crate) fn draw_smoothed(task: &Task, mistakes: Mistakes, n: u32) -> RgbImage {
+/// The points of `n` rows of `n` in a pixel.
+pub(crate) fn grid(n: u16) -> Vec<[f32; 2]> {
+    let place = |i: u16| (f32::from(i) + 0.5) / f32::from(n);
+    (0..n * n).map(|i| [place(i % n), place(i / n)]).collect()
+}
+
+/// Draws the task with these mistakes, each pixel the mean of rays through these points of it.
+pub(crate) fn draw_smoothed(task: &Task, mistakes: Mistakes, points: &[[f32; 2]]) -> RgbImage {
     let renderer = Renderer::new(task, mistakes);
     let (width, height) = SIZE;
     let mut picture = RgbImage::new(width, height);
     for row in 0..height {
         for column in 0..width {
             let mut color = Vec3::ZERO;
-            for sample in 0..n * n {
-                let offset = [sample % n, sample / n].map(|i| (i as f32 + 0.5) / n as f32);
-                color += renderer.ray(column as f32 + offset[0], row as f32 + offset[1]) / (n * n) as f32;
+            for [right, down] in points {
+                color += renderer.ray(column as f32 + right, row as f32 + down) / points.len() as f32;
             }
             let x = if renderer.is(Mistake::Mirrored) { width - 1 - column } else { column };
             let y = if renderer.is(Mistake::UpsideDown) { height - 1 - row } else { row };

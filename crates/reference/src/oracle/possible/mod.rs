@@ -21,7 +21,7 @@ pub use range::{ColorRange, Possible};
 
 /// Where the four samples of a pixel lie, from its top left corner (WebGPU, "multisample state"; Vulkan, "standard
 /// sample locations").
-const FOUR: [[f64; 2]; 4] = [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
+pub(super) const FOUR: [[f64; 2]; 4] = [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
 
 /// The most combinations of the samples' colours; more are merged into one range.
 const MOST_RANGES: usize = 4096;

@@ -10,6 +10,7 @@ use super::plan::Student;
 use crate::Image;
 use crate::mistakes::{Mistake, Mistakes};
 use crate::oracle::layers::Layers;
+use crate::oracle::possible::FOUR;
 use crate::oracle::raster::{Hit, Primitive, TILE};
 use crate::oracle::scene::OracleScene;
 use crate::oracle::solid::Color;
@@ -28,7 +29,10 @@ pub(crate) struct HitSheet {
 #[derive(Clone, Debug)]
 struct PixelHits {
     at: (u32, u32),
+    /// Of the ray through its centre.
     hits: Vec<Hit>,
+    /// Of the rays through four points, of which the pixel is the mean, if edges are smoothed.
+    samples: Option<[Vec<Hit>; 4]>,
     /// Whether a neighbouring pixel shows another object, another side or the background, or lies before or behind.
     silhouette: bool,
 }
@@ -49,16 +53,20 @@ struct TileHits {
     origin: [u32; 2],
     width: u32,
     seen: Vec<Seen>,
-    hits: Vec<((u32, u32), Vec<Hit>)>,
+    /// The chosen pixels, without their neighbours.
+    pixels: Vec<PixelHits>,
 }
 
 impl HitSheet {
-    /// The hits of every `step`-th pixel of every `step`-th row.
-    pub(crate) fn new(oracle: &Oracle, step: u32) -> Self {
+    /// The hits of every `step`-th pixel of every `step`-th row. A pixel shows its centre, or the mean of four points if it
+    /// `is_smooth`.
+    pub(crate) fn new(oracle: &Oracle, step: u32, is_smooth: bool) -> Self {
         let mut open = oracle.clone().with_mode(Mode::Mesh);
         open.scene.solids.iter_mut().flat_map(|solid| &mut solid.sides).for_each(|side| side.shown = true);
-        let tiles: Vec<TileHits> =
-            (0..open.tiles().count()).into_par_iter().map(|tile| tile_hits(&open, tile, step.max(1))).collect();
+        let tiles: Vec<TileHits> = (0..open.tiles().count())
+            .into_par_iter()
+            .map(|tile| tile_hits(&open, tile, step.max(1), is_smooth))
+            .collect();
         let UVec2 { x: width, y: height } = open.size;
         let mut seen = vec![Seen { number: 0, depth: f64::INFINITY }; width as usize * height as usize];
         for tile in &tiles {
@@ -82,9 +90,10 @@ impl HitSheet {
                 })
             })
         };
-        let pixels = tiles.into_iter().flat_map(|tile| tile.hits);
-        let pixels: Vec<PixelHits> =
-            pixels.map(|(at, hits)| PixelHits { at, silhouette: is_silhouette(at, &hits), hits }).collect();
+        let mut pixels: Vec<PixelHits> = tiles.into_iter().flat_map(|tile| tile.pixels).collect();
+        for pixel in &mut pixels {
+            pixel.silhouette = is_silhouette(pixel.at, &pixel.hits);
+        }
         Self { open, pixels }
     }
 
@@ -114,15 +123,20 @@ impl HitSheet {
         let student = Student::new(scene, mistakes);
         let policy = if mistakes.has(Mistake::ToneMappingMissing) { Intensity::Clamp } else { self.open.policy() };
         let clamps = self.open.clamp && policy == Intensity::Clamp && !mistakes.has(Mistake::ClampMissing);
-        let color = |pixel: &PixelHits| {
-            let [x, y] = [pixel.at.0, pixel.at.1].map(|at| f64::from(at) + 0.5);
+        let written = |i: Color| if clamps { i.map(|channel| channel.min(1.0)) } else { i };
+        let along = |[x, y]: [f64; 2], hits: &[Hit]| {
             let behind = scene.behind(scene.view.direction(x, y));
-            let written = |i: Color| if clamps { i.map(|channel| channel.min(1.0)) } else { i };
-            layers(scene, &pixel.hits, mistakes).visible(scene).fold(written(behind), |behind, hit| {
+            layers(scene, hits, mistakes).visible(scene).fold(written(behind), |behind, hit| {
                 let opacity = if mistakes.has(Mistake::OpacityIgnored) { 1.0 } else { scene.opacity(hit) };
                 let over = written(student.intensity(hit));
                 [0, 1, 2].map(|k| if opacity < 1.0 { opacity * over[k] + (1.0 - opacity) * behind[k] } else { over[k] })
             })
+        };
+        let color = |pixel: &PixelHits| {
+            let point = |[x, y]: [f64; 2]| [f64::from(pixel.at.0) + x, f64::from(pixel.at.1) + y];
+            let Some(samples) = &pixel.samples else { return along(point([0.5; 2]), &pixel.hits) };
+            let colors = FOUR.iter().zip(samples).map(|(offset, hits)| along(point(*offset), hits));
+            colors.fold([0.0; 3], |sum, color| [0, 1, 2].map(|k| sum[k] + 0.25 * color[k]))
         };
         let mut colors: Vec<Color> = self.pixels.par_iter().map(color).collect();
         let by = match policy {
@@ -144,7 +158,7 @@ impl Oracle {
     /// intensities: [`mistaken_picture`](crate::marking::mistaken_picture) draws them, too. Without a mistake this is
     /// [`draw`](Self::draw) to 10⁻¹² without supersampling.
     pub fn draw_mistaken(&self, mistakes: Mistakes) -> Image {
-        let sheet = HitSheet::new(self, 1);
+        let sheet = HitSheet::new(self, 1, false);
         let (width, height) = self.size();
         let mut pixels = vec![[0.0; 3]; width as usize * height as usize];
         for ((x, y), color) in sheet.places().zip(sheet.drawn(mistakes)) {
@@ -154,7 +168,7 @@ impl Oracle {
     }
 }
 
-fn tile_hits(open: &Oracle, tile: usize, step: u32) -> TileHits {
+fn tile_hits(open: &Oracle, tile: usize, step: u32, is_smooth: bool) -> TileHits {
     let scene = &open.scene;
     let origin = open.tiles().origin(tile);
     let UVec2 { x, y } = open.size;
@@ -179,9 +193,29 @@ fn tile_hits(open: &Oracle, tile: usize, step: u32) -> TileHits {
         let at = (origin[0] + number as u32 % width, origin[1] + number as u32 / width);
         ([at.0, at.1].iter().all(|at| at % step == step / 2)).then_some((number, at))
     };
-    let chosen: Vec<_> = (0..hits.len()).filter_map(chosen).collect();
-    let hits = chosen.into_iter().map(|(number, at)| (at, std::mem::take(&mut hits[number]))).collect();
-    TileHits { origin, width, seen, hits }
+    let mut pixels: Vec<PixelHits> = (0..hits.len())
+        .filter_map(chosen)
+        .map(|(number, at)| {
+            let samples = is_smooth.then(Default::default);
+            PixelHits { at, hits: std::mem::take(&mut hits[number]), samples, silhouette: false }
+        })
+        .collect();
+    if is_smooth {
+        for primitive in open.tiles().of_tile(tile) {
+            let meet = scene.triangle(primitive);
+            let pixels = pixels.iter_mut().filter(|pixel| {
+                let [x, y] = [pixel.at.0, pixel.at.1].map(f64::from);
+                let (low, high) = (primitive.low, primitive.high);
+                x + 1.0 >= low.x && x <= high.x && y + 1.0 >= low.y && y <= high.y
+            });
+            for PixelHits { at: (x, y), samples, .. } in pixels {
+                for ([right, down], hits) in FOUR.iter().zip(samples.iter_mut().flatten()) {
+                    hits.extend(meet(scene.view.at(f64::from(*x) + right, f64::from(*y) + down)));
+                }
+            }
+        }
+    }
+    TileHits { origin, width, seen, pixels }
 }
 
 fn shown(scene: &OracleScene, hits: &[Hit]) -> Seen {
