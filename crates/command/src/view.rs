@@ -34,7 +34,8 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     if args.bare {
         input.spawn(&mut app)?;
     } else {
-        let warnings = SceneViewer::new(input.into_document()).insert_into(&mut app).map_err(|error| Failure::new(2, error))?;
+        let warnings =
+            SceneViewer::new(input.into_document()).insert_into(&mut app).map_err(|error| Failure::new(2, error))?;
         warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
     }
     match app.run() {

@@ -16,7 +16,10 @@ use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
 
-use window::viewer::{BETWEEN_LOOKS, Manager, Screen, Viewer, command, device_loser, eventually, same_framing, view};
+use window::viewer::{
+    BETWEEN_LOOKS, Manager, Picture, Screen, Viewer, command, device_loser, eventually, same_framing,
+};
+use window::viewer::{view, view_with_panels};
 use window::wayland::Compositor;
 use x11rb::CURRENT_TIME;
 use x11rb::protocol::xproto::Keysym;
@@ -42,6 +45,50 @@ fn opengl_draws_in_the_window_where_it_is_asked_for() {
     // Otherwise a graphics card's driver may be found, under its own name.
     program.env("LIBGL_ALWAYS_SOFTWARE", "true").args(["--adapter", "gl:llvmpipe"]);
     follows_keys_and_size(program);
+}
+
+/// Panels hear the mouse and the keys, and look the same painted by the CPU and by a graphics card.
+#[test]
+fn panels_are_used_by_hand() {
+    // Between the graph of times, which differs, and the lower edge; and the values of what is selected.
+    const TREE: [u16; 4] = [2, 100, 186, 600];
+    const VALUES: [u16; 4] = [1014, 30, 1278, 600];
+    let shown = |on_cpu: bool| -> [Picture; 2] {
+        let mut program = view_with_panels();
+        if on_cpu {
+            without_drivers(&mut program);
+            program.args(["--adapter", "cpu"]);
+        }
+        let screen = Screen::open();
+        let mut viewer = Viewer::run(&screen, program);
+        let first = viewer.shown("Phong", None);
+        // "Camera" in the list.
+        viewer.click(38, 138);
+        let camera = eventually("the camera's values are shown", || {
+            let picture = viewer.picture()?;
+            (picture.share_of_others(&first, VALUES, 8) > 0.01).then_some(picture)
+        });
+        viewer.press(Keysym::from(b'1'));
+        viewer.shown("flat", Some(&camera));
+        // Panels come and go.
+        viewer.press(Keysym::from(b'p'));
+        eventually("the panels are gone", || {
+            viewer.picture().filter(|picture| picture.share_of_others(&first, TREE, 8) > 0.5)
+        });
+        viewer.press(Keysym::from(b'p'));
+        eventually("the panels are back", || {
+            viewer.picture().filter(|picture| picture.share_of_others(&first, TREE, 8) < 0.1)
+        });
+        [first, camera]
+    };
+    let (by_cpu, by_card) = (shown(true), shown(false));
+    for (number, (cpu, card)) in by_cpu.iter().zip(&by_card).enumerate() {
+        for area in [TREE, VALUES] {
+            // Rounded corners and text may differ at their edges, since the card filters images and the CPU does not.
+            let share = cpu.share_of_others(card, area, 40);
+            assert!(share < 0.02, "picture {number}: {share} of {area:?}");
+        }
+    }
 }
 
 /// Hides all graphics drivers from the program.

@@ -41,11 +41,11 @@ pub use gpu::pipelines::compile::Compile;
 #[cfg(feature = "wgpu")]
 pub use gpu::surface::{SurfaceLost, SurfaceTarget};
 #[cfg(feature = "wgpu")]
-pub use gpu::window_pass::{DrawOverWindow, WindowPass};
-#[cfg(feature = "wgpu")]
 pub use gpu::texture::TextureTarget;
 #[cfg(feature = "wgpu")]
 pub use gpu::timer::GpuTimer;
+#[cfg(feature = "wgpu")]
+pub use gpu::window_pass::{DrawOverWindow, WindowPass};
 pub use halfway_frame::error::RenderError;
 pub use halfway_frame::lights::gather::Lights;
 pub use halfway_frame::passes::{Pass, PassCounts, Phase};

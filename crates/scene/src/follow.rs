@@ -90,7 +90,8 @@ impl Spawned {
         for entity in [self.lights, self.objects, self.cameras, vec![self.camera]].concat() {
             // An object that shears has its frame in another entity.
             let parent = world.get::<ChildOf>(entity).map(ChildOf::parent);
-            let is_outer = |outer: &Entity| world.get::<Camera>(*outer).is_none() && world.get::<Mesh3d>(*outer).is_none();
+            let is_outer =
+                |outer: &Entity| world.get::<Camera>(*outer).is_none() && world.get::<Mesh3d>(*outer).is_none();
             let entity = parent.filter(is_outer).unwrap_or(entity);
             // Lights may have gone with what they are attached to.
             if let Ok(entity) = world.get_entity_mut(entity) {
@@ -209,7 +210,9 @@ fn plain(scene: &SceneFile) -> SceneFile {
 /// Whether one object becomes another by its place and its looks alone.
 fn follows(shown: &ObjectEntry, object: &ObjectEntry) -> bool {
     let can_dress = shown.scalars.is_none() && shown.material.is_some() == object.material.is_some();
-    (can_dress || has_same_looks(shown, object)) && is_same_mesh(&shown.mesh, &object.mesh) && rest(shown) == rest(object)
+    (can_dress || has_same_looks(shown, object))
+        && is_same_mesh(&shown.mesh, &object.mesh)
+        && rest(shown) == rest(object)
 }
 
 fn has_same_looks(shown: &ObjectEntry, object: &ObjectEntry) -> bool {
@@ -336,7 +339,8 @@ mod tests {
         let entities = [&[spawned.camera][..], &spawned.objects, &spawned.lights].concat();
         let shown = |entity: Entity| {
             let object = (world.get::<Material>(entity), world.get::<BackMaterial>(entity));
-            let looks = (world.get::<Shading>(entity), world.get::<Reflectance>(entity), world.get::<Tolerance>(entity));
+            let looks =
+                (world.get::<Shading>(entity), world.get::<Reflectance>(entity), world.get::<Tolerance>(entity));
             let light = (world.get::<PointLight>(entity), world.get::<halfway_lighting::SpotLight>(entity));
             let place = (world.get::<Transform>(entity), world.get::<Camera>(entity), world.get::<Name>(entity));
             format!("{object:?} {looks:?} {light:?} {place:?}")

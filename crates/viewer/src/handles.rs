@@ -1,6 +1,6 @@
 //! Handles: lights are shown where they are, and dragged.
 
-use egui::{Color32, Context, CursorIcon, Id, LayerId, Order, Pos2, Sense, Stroke, vec2};
+use egui::{Color32, Context, CursorIcon, Id, LayerId, Order, Painter, Pos2, Sense, Stroke, vec2};
 use halfway::prelude::*;
 use halfway::scene::{AttachEntry, LightEntry, LightKind};
 
@@ -58,7 +58,7 @@ pub(crate) fn show(
                 moved = moved.or(drag_axis(ctx, index, (before, at), (axis, color), projected));
             }
         }
-        mark(ctx, light, at, is_selected);
+        mark(ctx, light, (projected, at), is_selected);
         if let Some(by) = moved {
             handled.light = Some(index);
             handled.changed = true;
@@ -91,11 +91,8 @@ fn put(light: &mut LightEntry, at: Vec3, around: Around, origin: DVec3) {
         LightKind::Hemisphere if toward != Vec3::ZERO => light.cone.direction = toward.to_array(),
         LightKind::Point | LightKind::Spot | LightKind::Homogeneous => {
             let w = light.position[3];
-            let [x, y, z] = if w == 0.0 {
-                toward.as_dvec3().to_array()
-            } else {
-                ((at.as_dvec3() + origin) * w).to_array()
-            };
+            let [x, y, z] =
+                if w == 0.0 { toward.as_dvec3().to_array() } else { ((at.as_dvec3() + origin) * w).to_array() };
             if w != 0.0 || toward != Vec3::ZERO {
                 light.position = [x, y, z, w];
             }
@@ -113,17 +110,17 @@ fn away(around: Around) -> f32 {
     0.35 * around.distance
 }
 
+/// Paints over the picture, and not over the panels beside it.
+fn painter(ctx: &Context, projected: &Projected) -> Painter {
+    ctx.layer_painter(LayerId::background()).with_clip_rect(projected.window)
+}
+
 /// A part of the window that can be dragged; gives by how many points it was.
-fn drag(
-    ctx: &Context,
-    id: Id,
-    at: Pos2,
-    radius: f32,
-    mut look: impl FnMut(&egui::Response),
-) -> Option<egui::Vec2> {
+fn drag(ctx: &Context, id: Id, at: Pos2, radius: f32, mut look: impl FnMut(&egui::Response)) -> Option<egui::Vec2> {
     let corner = at - vec2(radius, radius);
     let area = egui::Area::new(id).order(Order::Background).fixed_pos(corner).constrain(false);
-    let response = area.show(ctx, |ui| ui.allocate_exact_size(vec2(radius, radius) * 2.0, Sense::click_and_drag()).1).inner;
+    let response =
+        area.show(ctx, |ui| ui.allocate_exact_size(vec2(radius, radius) * 2.0, Sense::click_and_drag()).1).inner;
     let response = response.on_hover_cursor(CursorIcon::Grab);
     look(&response);
     let by = response.drag_delta();
@@ -144,7 +141,7 @@ fn drag_axis(
     if along.length() < 8.0 {
         return None;
     }
-    let painter = ctx.layer_painter(LayerId::background());
+    let painter = painter(ctx, projected);
     painter.arrow(at, along, Stroke::new(2.0, color));
     let by = drag(ctx, Id::unique(("axis", index, axis.to_array().map(f32::to_bits))), tip, 7.0, |response| {
         if response.hovered() || response.dragged() {
@@ -156,8 +153,8 @@ fn drag_axis(
 }
 
 /// The mark of a light, in its colour.
-fn mark(ctx: &Context, light: &LightEntry, at: Pos2, is_selected: bool) {
-    let painter = ctx.layer_painter(LayerId::background());
+fn mark(ctx: &Context, light: &LightEntry, (projected, at): (&Projected, Pos2), is_selected: bool) {
+    let painter = painter(ctx, projected);
     let color = if light.kind == LightKind::Hemisphere { light.hemisphere.sky } else { light.light.diffuse };
     let strongest = color.red.max(color.green).max(color.blue).max(1e-9);
     let shown = egui::Rgba::from_rgb(color.red / strongest, color.green / strongest, color.blue / strongest);
@@ -173,7 +170,7 @@ fn rays(
     (projected, around): (&Projected, Around),
     is_selected: bool,
 ) {
-    let painter = ctx.layer_painter(LayerId::background());
+    let painter = painter(ctx, projected);
     let faint = Stroke::new(1.0, Color32::from_rgba_unmultiplied(255, 230, 150, if is_selected { 200 } else { 90 }));
     let line = |from: Pos2, to: Vec3| {
         if let Some(to) = projected.place(to) {

@@ -134,7 +134,8 @@ fn entry_of(light: Entity, world: &World) -> Option<LightEntry> {
         LightEntry { light: *light, ..white(LightKind::Point) }
     } else if let Some(light) = entity.get::<DirectionalLight>() {
         let mut entry = white(LightKind::Directional);
-        (entry.light.ambient, entry.light.diffuse, entry.light.specular) = (light.ambient, light.diffuse, light.specular);
+        (entry.light.ambient, entry.light.diffuse, entry.light.specular) =
+            (light.ambient, light.diffuse, light.specular);
         entry
     } else {
         LightEntry { hemisphere: *entity.get::<HemisphereLight>()?, ..white(LightKind::Hemisphere) }

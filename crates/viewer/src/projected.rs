@@ -10,7 +10,7 @@ pub(crate) struct Projected {
     eye_from_world: Mat4,
     lens: Lens<f64>,
     /// In points of the panels.
-    window: Rect,
+    pub(crate) window: Rect,
 }
 
 impl Projected {

@@ -1,16 +1,16 @@
 //! The divider: the window shows one way of drawing at its left and another at its right.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 use egui::{Align2, Color32, ColorImage, Context, CursorIcon, FontId, Id, LayerId, Order, Rect, Sense, Stroke};
 use egui::{TextureHandle, TextureOptions, pos2, vec2};
-use halfway::lighting::{Choices, Film, Part, Projection, Viewport};
+use halfway::lighting::{CameraTurn, Choices, Film, Part, Projection, Viewport};
 use halfway::prelude::*;
-use halfway::reference::Oracle;
+use halfway::reference::{Oracle, OracleError};
 use halfway::render::Canvas;
 
 use crate::viewer::pixels_of;
@@ -108,7 +108,7 @@ impl Split {
         self.divider(ctx, window);
         self.draw_camera(main, window, ctx.pixels_per_point(), world);
         let x = window.left() + self.at * window.width();
-        let painter = ctx.layer_painter(LayerId::background());
+        let painter = ctx.layer_painter(LayerId::background()).with_clip_rect(window);
         let mut note = self.way.name();
         if !matches!(self.way, Way::Shading(_)) {
             let part = Rect::from_min_max(pos2(x, window.top()), window.max);
@@ -207,7 +207,7 @@ impl Split {
             ctx.request_repaint();
             return Err("drawing …".into());
         }
-        self.oracle.draw(size, encoding, world)?;
+        self.oracle.draw((main, size), encoding, world)?;
         let Some(bytes) = &self.oracle.bytes else { return Err("drawing …".into()) };
         if self.oracle.shown.as_ref().is_none_or(|(way, _)| *way != self.way) {
             let pixels = match (self.way, world.get_resource::<Canvas>().and_then(Canvas::bytes)) {
@@ -225,12 +225,17 @@ impl Split {
 
 impl Drawn {
     /// Begins the picture on a thread of its own, or takes it from there.
-    fn draw(&mut self, size: UVec2, encoding: halfway::lighting::Encoding, world: &mut World) -> Result<(), String> {
+    fn draw(
+        &mut self,
+        (camera, size): (Entity, UVec2),
+        encoding: halfway::lighting::Encoding,
+        world: &mut World,
+    ) -> Result<(), String> {
         if self.bytes.is_some() {
             return Ok(());
         }
         let Some(job) = &self.job else {
-            let oracle = Oracle::new(world, size).map_err(|error| error.to_string())?.with_clamping(true);
+            let oracle = seen_by(camera, size, world).map_err(|error| error.to_string())?;
             let (sender, done) = channel();
             let stop = Arc::new(AtomicBool::new(false));
             let asked = Arc::clone(&stop);
@@ -254,6 +259,18 @@ impl Drawn {
         }
         Ok(())
     }
+}
+
+/// The reference renderer, for the picture of one of the cameras that share the window.
+pub(crate) fn seen_by(camera: Entity, size: UVec2, world: &mut World) -> Result<Oracle, OracleError> {
+    let turn = world.get_resource::<CameraTurn>().copied();
+    world.insert_resource(CameraTurn(Some(camera)));
+    let oracle = Oracle::new(world, size).map(|oracle| oracle.with_clamping(true));
+    match turn {
+        Some(turn) => world.insert_resource(turn),
+        None => drop(world.remove_resource::<CameraTurn>()),
+    }
+    oracle
 }
 
 /// The projection of the part of a picture from this column on.

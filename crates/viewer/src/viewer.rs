@@ -9,7 +9,7 @@ use egui::{Align2, Context, Id, Panel, Ui, vec2};
 use egui_winit::State;
 use egui_winit::winit::event::WindowEvent;
 use egui_winit::winit::window::Window;
-use halfway::lighting::{Choices, Projection, View, Viewport};
+use halfway::lighting::{Choices, Part, Projection, View, Viewport};
 use halfway::prelude::*;
 use halfway::render::{AdapterChoice, FrameTimes, WindowPass};
 use halfway::scene::LightKind;
@@ -21,14 +21,14 @@ use crate::files::{Ended, FileDialog, Purpose};
 use crate::handles::{self, Around};
 use crate::keys::{self, Command};
 use crate::live::Live;
+use crate::paint::Painted;
 use crate::paint::cpu::Painter;
 use crate::paint::gpu::PaintPass;
-use crate::paint::Painted;
 use crate::panels::{self, Selected, look};
 use crate::pictures::{Drawing, Wanted};
 use crate::projected::Projected;
 use crate::settings::Settings;
-use crate::split::{Split, Way};
+use crate::split::{Split, Way, seen_by};
 use crate::times::Times;
 
 /// How often the opened file is looked at.
@@ -57,6 +57,8 @@ pub struct SceneViewer {
     drawing: Option<Drawing>,
     help: bool,
     times: Times,
+    /// What was said about a pixel.
+    explained: Option<String>,
     /// The part of the window that the picture has, in points.
     area: egui::Rect,
     message: Option<(String, Instant)>,
@@ -89,6 +91,7 @@ impl SceneViewer {
             drawing: None,
             help: false,
             times: Times::default(),
+            explained: None,
             area: egui::Rect::ZERO,
             message: None,
             is_changing: false,
@@ -162,7 +165,11 @@ impl SceneViewer {
                 let Some(choice) = Shading::CHOICES.get(number) else { return false };
                 scene.shading = choice.value;
                 // Objects with a shading of their own are compared, too.
-                scene.objects.iter_mut().filter_map(|object| object.shading.as_mut()).for_each(|own| *own = choice.value);
+                scene
+                    .objects
+                    .iter_mut()
+                    .filter_map(|object| object.shading.as_mut())
+                    .for_each(|own| *own = choice.value);
                 for camera in scene.all_cameras_mut() {
                     camera.shading = None;
                 }
@@ -248,7 +255,8 @@ impl SceneViewer {
         match self.split.take() {
             Some(split) => split.end(world),
             None => {
-                let other = if self.document.scene.shading == Shading::Phong { Shading::Gouraud } else { Shading::Phong };
+                let other =
+                    if self.document.scene.shading == Shading::Phong { Shading::Gouraud } else { Shading::Phong };
                 self.split = Some(Split::new(Way::Shading(other)));
             }
         }
@@ -306,8 +314,9 @@ impl SceneViewer {
     fn status(&self, ui: &mut Ui, world: &World) {
         self.times.show(ui);
         if let Some(report) = world.get_resource::<FrameReport>() {
-            let text = format!("{} of {} objects, {} triangles", report.visible, report.objects, report.triangles);
-            ui.label(text).on_hover_text(format!("{} draws, {} lights", report.draws, report.lights));
+            let text = format!("{} of {} objects seen", report.visible, report.objects);
+            let more = format!("{} triangles in {} draws, {} lights", report.triangles, report.draws, report.lights);
+            ui.add(egui::Label::new(text).truncate()).on_hover_text(more);
             for error in report.errors.iter().take(3) {
                 ui.colored_label(ui.visuals().error_fg_color, error.to_string());
             }
@@ -331,7 +340,8 @@ impl SceneViewer {
         }
         let [width, height] = self.document.scene.size.map(|pixels| pixels as f32);
         if let Some(mut camera) = world.get_mut::<Camera>(camera) {
-            let (Projection::Perspective { mut film, .. } | Projection::Orthographic { mut film, .. }) = camera.projection;
+            let (Projection::Perspective { mut film, .. } | Projection::Orthographic { mut film, .. }) =
+                camera.projection;
             if film.aspect.is_none() {
                 film.aspect = Some(width / height);
                 camera.projection = camera.projection.with_film(film);
@@ -371,7 +381,24 @@ impl SceneViewer {
             .pivot(Align2::CENTER_CENTER)
             .default_pos(context.content_rect().center())
             .vscroll(true)
+            .default_height(600.0)
             .show(context, keys::show);
+        let mut is_open = self.explained.is_some();
+        if let Some(text) = &self.explained {
+            egui::Window::new("This pixel")
+                .open(&mut is_open)
+                .default_width(460.0)
+                .default_height(420.0)
+                .pivot(Align2::LEFT_BOTTOM)
+                .default_pos(self.area.left_bottom() + vec2(12.0, -12.0))
+                .scroll([true, true])
+                .show(context, |ui| {
+                    ui.add(egui::Label::new(text).selectable(true).extend());
+                });
+        }
+        if !is_open {
+            self.explained = None;
+        }
         if let Some(mut dialog) = self.dialog.take() {
             match dialog.show(context) {
                 None => self.dialog = Some(dialog),
@@ -499,7 +526,21 @@ impl SceneViewer {
         }
     }
 
-    fn explain(&mut self, _live: &Live, _world: &mut World) {}
+    /// Explains the pixel under the pointer, by the reference renderer.
+    fn explain(&mut self, live: &Live, world: &mut World) {
+        let Some(at) = self.context.pointer_latest_pos().filter(|at| self.area.contains(*at)) else {
+            return self.say("the pointer is not on the picture");
+        };
+        let scale = self.context.pixels_per_point();
+        let Part::Pixels([left, top, width, height]) = pixels_of(self.area, scale).part else { return };
+        let pixel = |at: f32, first: u32, count: u32| ((at * scale) as u32).saturating_sub(first).min(count - 1);
+        let (x, y) = (pixel(at.x, left, width), pixel(at.y, top, height));
+        let oracle = seen_by(live.spawned.camera, UVec2::new(width, height), world);
+        match oracle.and_then(|oracle| oracle.explain(x, y)) {
+            Ok(explanation) => self.explained = Some(explanation.to_string()),
+            Err(error) => self.say(&error.to_string()),
+        }
+    }
 
     fn say(&mut self, message: &str) {
         self.message = Some((message.to_owned(), Instant::now()));

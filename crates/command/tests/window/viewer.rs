@@ -9,10 +9,11 @@ use std::time::Duration;
 
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{
-    AtomEnum, ClientMessageEvent, ConfigureWindowAux, ConnectionExt, CreateWindowAux, EventMask, ImageFormat,
-    InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT, KeyButMask, KeyPressEvent, Keysym, MapState, PropMode, Window,
-    WindowClass,
+    AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ClientMessageEvent, ConfigureWindowAux, ConnectionExt,
+    CreateWindowAux, EventMask, ImageFormat, InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT, KeyButMask, KeyPressEvent,
+    Keysym, MOTION_NOTIFY_EVENT, MapState, PropMode, Window, WindowClass,
 };
+use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 use x11rb::{CURRENT_TIME, NONE};
 
@@ -91,6 +92,21 @@ impl Picture {
 
     pub(crate) fn colors(&self) -> usize {
         self.bytes.chunks_exact(4).collect::<std::collections::HashSet<_>>().len()
+    }
+
+    /// The share of the pixels of a rectangle (left, top, right, bottom) that differ from another picture's by more than
+    /// `steps` in a channel.
+    pub(crate) fn share_of_others(&self, other: &Self, [left, top, right, bottom]: [u16; 4], steps: u8) -> f64 {
+        let pixel = |picture: &Self, x: u16, y: u16| {
+            let first = 4 * (usize::from(y) * usize::from(picture.width) + usize::from(x));
+            <[u8; 4]>::try_from(&picture.bytes[first..first + 4]).expect("a pixel has four bytes")
+        };
+        let differs = |x, y| {
+            let (a, b) = (pixel(self, x, y), pixel(other, x, y));
+            a.iter().zip(b).any(|(a, b)| a.abs_diff(b) > steps)
+        };
+        let all = (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y)));
+        all.filter(|&(x, y)| differs(x, y)).count() as f64 / f64::from(right - left) / f64::from(bottom - top)
     }
 
     /// Left, top, right and bottom of the non-background pixels, from the middle, in heights; `None` if there are none.
@@ -380,6 +396,19 @@ impl<'a> Viewer<'a> {
             // With no mask, an event goes to the program that made the window.
             let sent = connection.send_event(false, self.window, EventMask::NO_EVENT, event);
             sent.expect("the display is there").check().expect("the window takes keys");
+        }
+    }
+
+    /// Moves the pointer to a pixel of the window and clicks there.
+    pub(crate) fn click(&self, x: i16, y: i16) {
+        let Screen { connection, root, .. } = self.screen;
+        let corner = connection.translate_coordinates(self.window, *root, x, y).expect("the display is there");
+        let at = corner.reply().expect("the window is there");
+        for (kind, detail) in [(MOTION_NOTIFY_EVENT, 0), (BUTTON_PRESS_EVENT, 1), (BUTTON_RELEASE_EVENT, 1)] {
+            let sent = connection.xtest_fake_input(kind, detail, CURRENT_TIME, *root, at.dst_x, at.dst_y, 0);
+            sent.expect("the display is there").check().expect("it has a pointer");
+            // The window draws between them.
+            sleep(BETWEEN_LOOKS);
         }
     }
 

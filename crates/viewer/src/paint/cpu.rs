@@ -203,7 +203,8 @@ mod tests {
         let color = Color32::from_rgba_premultiplied(0, 0, 0, 128);
         for shift in 0..32 {
             let shift = shift as f32 / 32.0;
-            let corners = [pos2(1.0 + shift, 1.0), pos2(13.0, 1.5 + shift), pos2(14.0 - shift, 7.0), pos2(2.0, 6.0 + shift)];
+            let corners =
+                [pos2(1.0 + shift, 1.0), pos2(13.0, 1.5 + shift), pos2(14.0 - shift, 7.0), pos2(2.0, 6.0 + shift)];
             let vertex = |pos| Vertex { pos, uv: pos2(0.0, 0.0), color };
             let middle = pos2(7.3, 3.7 + shift);
             let mut vertices = corners.map(vertex).to_vec();

@@ -69,7 +69,8 @@ pub(crate) fn choice<T: Choices>(ui: &mut Ui, name: &str, hint: &str, value: &mu
         let shown = value.choice().map_or("other", |choice| choice.name);
         ComboBox::from_id_salt(name).selected_text(shown).show_ui(ui, |ui| {
             for choice in T::CHOICES {
-                changed |= ui.selectable_value(value, choice.value, choice.name).on_hover_text(choice.meaning).changed();
+                changed |=
+                    ui.selectable_value(value, choice.value, choice.name).on_hover_text(choice.meaning).changed();
             }
         });
         changed
@@ -96,7 +97,13 @@ pub(crate) fn own_choice<T: Choices>(ui: &mut Ui, name: &str, hint: &str, value:
 }
 
 /// One of a few values.
-pub(crate) fn one_of<T: PartialEq + Copy>(ui: &mut Ui, name: &str, hint: &str, value: &mut T, all: &[(T, &str)]) -> bool {
+pub(crate) fn one_of<T: PartialEq + Copy>(
+    ui: &mut Ui,
+    name: &str,
+    hint: &str,
+    value: &mut T,
+    all: &[(T, &str)],
+) -> bool {
     line(ui, name, hint, |ui| {
         let mut changed = false;
         let shown = all.iter().find(|(known, _)| known == value).map_or("other", |(_, name)| name);
@@ -109,9 +116,20 @@ pub(crate) fn one_of<T: PartialEq + Copy>(ui: &mut Ui, name: &str, hint: &str, v
     })
 }
 
+/// The name of a value, in a column of one width.
+pub(crate) fn name_of(ui: &mut Ui, name: &str) -> egui::Response {
+    let layout = egui::Layout::left_to_right(egui::Align::Center);
+    let column = egui::vec2(84.0, 18.0);
+    let label = ui.allocate_ui_with_layout(column, layout, |ui| {
+        ui.set_min_size(column);
+        ui.add(egui::Label::new(name).truncate())
+    });
+    label.inner
+}
+
 fn line(ui: &mut Ui, name: &str, hint: &str, field: impl FnOnce(&mut Ui) -> bool) -> bool {
     ui.horizontal(|ui| {
-        let label = ui.add_sized([84.0, 18.0], egui::Label::new(name).truncate());
+        let label = name_of(ui, name);
         if !hint.is_empty() {
             label.on_hover_text(hint);
         }

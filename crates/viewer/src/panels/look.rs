@@ -95,11 +95,9 @@ pub(crate) fn other_projection(projection: Projection, distance: f32) -> Project
         Projection::Perspective { film, .. } => {
             Projection::Orthographic { height: projection.height_at(distance), near: -1e3 * distance, far: None, film }
         }
-        Projection::Orthographic { height, film, .. } => Projection::Perspective {
-            fov_y: 2.0 * (0.5 * height / distance).atan(),
-            near: 0.01 * distance,
-            film,
-        },
+        Projection::Orthographic { height, film, .. } => {
+            Projection::Perspective { fov_y: 2.0 * (0.5 * height / distance).atan(), near: 0.01 * distance, film }
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use egui::{ComboBox, Ui};
 use halfway::prelude::*;
 use halfway::scene::MaterialEntry;
 
-use super::fields::{color, slider, wide_slider};
+use super::fields::{color, name_of, slider, wide_slider};
 
 pub(crate) fn show(ui: &mut Ui, entry: &mut MaterialEntry) -> bool {
     let mut changed = false;
@@ -13,7 +13,7 @@ pub(crate) fn show(ui: &mut Ui, entry: &mut MaterialEntry) -> bool {
         MaterialEntry::Values(_) => "own values".into(),
     };
     ui.horizontal(|ui| {
-        ui.add_sized([84.0, 18.0], egui::Label::new("preset"));
+        name_of(ui, "preset");
         ComboBox::from_id_salt("preset").selected_text(shown).show_ui(ui, |ui| {
             for (name, _) in Material::PRESETS {
                 let is_shown = *entry == MaterialEntry::Preset((*name).to_owned());

@@ -111,41 +111,43 @@ pub(crate) fn inspector(
     live: &Live,
     world: &mut World,
 ) -> bool {
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| match *selected {
-        Selected::Scene => look::scene(ui, scene),
-        Selected::Camera => {
-            look::camera(ui, live.spawned.camera, world);
-            false
-        }
-        Selected::Light(index) => {
-            let mut lights = live.light_entries(scene, world);
-            let Some(light) = lights.get_mut(index) else {
-                *selected = Selected::Scene;
-                return false;
-            };
-            ui.heading(light_name(light, index));
-            let edited = light::show(ui, light);
-            if edited.removed {
-                remove_light(scene, index, live, world);
-                *selected = Selected::Scene;
-            } else if edited.changed {
-                let light = light.clone();
-                if let Some(entry) = live.list_lights(scene, world).get_mut(index) {
-                    *entry = light;
-                }
+    ScrollArea::vertical()
+        .auto_shrink(false)
+        .show(ui, |ui| match *selected {
+            Selected::Scene => look::scene(ui, scene),
+            Selected::Camera => {
+                look::camera(ui, live.spawned.camera, world);
+                false
             }
-            edited.removed || edited.changed
-        }
-        Selected::Object(index) => {
-            let Some(object) = scene.objects.get_mut(index) else {
-                *selected = Selected::Scene;
-                return false;
-            };
-            ui.heading(object_name(object, index));
-            object::show(ui, object)
-        }
-    })
-    .inner
+            Selected::Light(index) => {
+                let mut lights = live.light_entries(scene, world);
+                let Some(light) = lights.get_mut(index) else {
+                    *selected = Selected::Scene;
+                    return false;
+                };
+                ui.heading(light_name(light, index));
+                let edited = light::show(ui, light);
+                if edited.removed {
+                    remove_light(scene, index, live, world);
+                    *selected = Selected::Scene;
+                } else if edited.changed {
+                    let light = light.clone();
+                    if let Some(entry) = live.list_lights(scene, world).get_mut(index) {
+                        *entry = light;
+                    }
+                }
+                edited.removed || edited.changed
+            }
+            Selected::Object(index) => {
+                let Some(object) = scene.objects.get_mut(index) else {
+                    *selected = Selected::Scene;
+                    return false;
+                };
+                ui.heading(object_name(object, index));
+                object::show(ui, object)
+            }
+        })
+        .inner
 }
 
 /// Removes a light of the scene; the lights of models or the default ones become a list of the scene's before.

@@ -335,7 +335,11 @@ fn the_divider_has_a_second_camera_that_sees_the_same() {
     hands.frames(2);
     let cameras = |hands: &mut Hands| {
         let world = hands.app.world_mut();
-        world.query_filtered::<(&GlobalTransform, Option<&Shading>), With<Camera>>().iter(world).map(|(at, shading)| (*at, shading.copied())).collect::<Vec<_>>()
+        world
+            .query_filtered::<(&GlobalTransform, Option<&Shading>), With<Camera>>()
+            .iter(world)
+            .map(|(at, shading)| (*at, shading.copied()))
+            .collect::<Vec<_>>()
     };
     let both = cameras(&mut hands);
     assert_eq!(both.len(), 2);
@@ -410,6 +414,24 @@ fn a_scene_that_is_saved_and_opened_is_the_same() {
     }
     assert_eq!(hands.scene().shading, Shading::Flat);
     std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_pixel_is_explained() {
+    let mut hands = Hands::new(scene(vec![named(LightKind::Point, [1.0, 2.0, 3.0])]));
+    let middle = hands.viewer.area.center();
+    // The camera of the window is asked, though the divider has another.
+    hands.key(Key::D, Modifiers::NONE);
+    hands.frame(vec![Event::PointerMoved(middle - vec2(20.0, 0.0))]);
+    hands.key(Key::X, Modifiers::NONE);
+    let text = hands.viewer.explained.clone().expect("the ball is there");
+    for expected in ["ball", "lamp", "n·l"] {
+        assert!(text.contains(expected), "{expected} in {text}");
+    }
+    hands.frame(vec![Event::PointerMoved(pos2(5.0, 5.0))]);
+    hands.viewer.explained = None;
+    hands.key(Key::X, Modifiers::NONE);
+    assert_eq!(hands.viewer.explained, None, "the panels have no pixels");
 }
 
 #[test]
