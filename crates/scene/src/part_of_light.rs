@@ -6,8 +6,6 @@ use halfway_lighting::{
 };
 use halfway_texture::environment::EnvironmentLight;
 
-use crate::spawn::Spawned;
-
 /// A part of a scene's light. The parts of all terms, or of no light and of each light, add up to the whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PartOfLight {
@@ -23,7 +21,7 @@ pub enum LightSource {
     /// From everywhere.
     #[default]
     Anywhere,
-    /// From the light at this place in [`Spawned::lights`] alone: without the global ambient light, an environment,
+    /// From the light at this place in [`Spawned::lights`](crate::Spawned::lights) alone: without the global ambient light, an environment,
     /// emission, unlit objects and the background.
     Light(usize),
     /// From everything but the lights.
@@ -73,8 +71,8 @@ struct WholeLight {
 }
 
 impl WholeLight {
-    fn from_world(spawned: &Spawned, world: &mut World) -> Self {
-        let mut below = spawned.objects.clone();
+    fn from_world(of: LitEntities, world: &mut World) -> Self {
+        let mut below = of.objects.to_vec();
         let mut materials = Vec::new();
         while let Some(entity) = below.pop() {
             below.extend(world.get::<Children>(entity).iter().flat_map(|children| children.iter()));
@@ -86,9 +84,9 @@ impl WholeLight {
             let light = LightComponent::from_entity(world.get_entity(entity).ok()?)?;
             Some((entity, light, world.get::<Visibility>(entity).copied()))
         };
-        let lights = spawned.lights.iter().filter_map(light).collect();
+        let lights = of.lights.iter().filter_map(light).collect();
         let camera = |&entity: &Entity| Some((entity, *world.get::<Camera>(entity)?));
-        let cameras = spawned.cameras.iter().filter_map(camera).collect();
+        let cameras = of.cameras.iter().filter_map(camera).collect();
         let ambient = world.get_resource::<GlobalAmbient>().copied().unwrap_or_default();
         let mut environments = world.query::<(Entity, &EnvironmentLight, Option<&Visibility>)>();
         let environments = environments.iter(world);
@@ -96,8 +94,8 @@ impl WholeLight {
         Self { materials, lights, environments: environments.collect(), cameras, ambient }
     }
 
-    fn show(&self, part: PartOfLight, spawned: &Spawned, world: &mut World) {
-        let shading = world.get::<Shading>(spawned.camera).copied().unwrap_or_default();
+    fn show(&self, part: PartOfLight, of: LitEntities, world: &mut World) {
+        let shading = of.cameras.first().and_then(|camera| world.get::<Shading>(*camera)).copied().unwrap_or_default();
         for &(entity, material, back) in &self.materials {
             let lit = world.get::<Shading>(entity).copied().unwrap_or(shading) != Shading::Unlit;
             let Ok(mut entity) = world.get_entity_mut(entity) else { continue };
@@ -109,7 +107,7 @@ impl WholeLight {
         for &(entity, light, visibility) in &self.lights {
             let shines = match part.source {
                 LightSource::Anywhere => true,
-                LightSource::Light(place) => spawned.lights.get(place) == Some(&entity),
+                LightSource::Light(place) => of.lights.get(place) == Some(&entity),
                 LightSource::NoLight => false,
             };
             let Ok(mut entity) = world.get_entity_mut(entity) else { continue };
@@ -147,41 +145,21 @@ fn set_visible(entity: &mut EntityWorldMut, before: Option<Visibility>, shines: 
     };
 }
 
-impl Spawned {
-    /// Shows a part of the scene's light alone, or all of it again. The first call remembers the whole: materials,
-    /// lights, environment and backgrounds that change later come back as they were then.
-    ///
-    /// - Only components and resources change, so that every renderer shows the part: coefficients of materials that
-    ///   have no part in it are black, and so are the global ambient light and the background; lights and environments
-    ///   are hidden.
-    /// - Lines along edges, legends and backgrounds that are transparent stay as they are.
-    ///
-    /// ```
-    /// use std::path::Path;
-    ///
-    /// use bevy_app::App;
-    /// use halfway_lighting::{LinearRgba, Material, Term};
-    /// use halfway_mesh::MeshPlugin;
-    /// use halfway_scene::{PartOfLight, SceneFile, spawn};
-    ///
-    /// let mut app = App::new();
-    /// app.add_plugins(MeshPlugin);
-    /// let scene = SceneFile::from_json(r#"{"objects": [{"mesh": {"box": {}}, "material": {"preset": "brass"}}]}"#, "a box")?;
-    /// let spawned = spawn(&scene, Path::new(""), app.world_mut())?;
-    /// let ball = spawned.objects[0];
-    /// spawned.show_light(PartOfLight { term: Some(Term::Specular), ..PartOfLight::default() }, app.world_mut());
-    /// assert_eq!(app.world().get::<Material>(ball).unwrap().diffuse, LinearRgba::BLACK);
-    /// spawned.show_light(PartOfLight::default(), app.world_mut());
-    /// assert_eq!(app.world().get(ball), Some(&Material::BRASS));
-    /// # Ok::<(), halfway_scene::SceneError>(())
-    /// ```
-    pub fn show_light(&self, part: PartOfLight, world: &mut World) {
-        let whole = match world.remove_resource::<WholeLight>() {
-            Some(whole) => whole,
-            None if part == PartOfLight::default() => return,
-            None => WholeLight::from_world(self, world),
-        };
-        whole.show(part, self, world);
-        world.insert_resource(whole);
-    }
+/// The entities of a scene whose light is shown in parts.
+#[derive(Clone, Copy)]
+pub(crate) struct LitEntities<'a> {
+    pub(crate) cameras: &'a [Entity],
+    pub(crate) objects: &'a [Entity],
+    pub(crate) lights: &'a [Entity],
+}
+
+/// Shows a part of the light; see [`Spawned::show_light`](crate::Spawned::show_light).
+pub(crate) fn show(part: PartOfLight, of: LitEntities, world: &mut World) {
+    let whole = match world.remove_resource::<WholeLight>() {
+        Some(whole) => whole,
+        None if part == PartOfLight::default() => return,
+        None => WholeLight::from_world(of, world),
+    };
+    whole.show(part, of, world);
+    world.insert_resource(whole);
 }

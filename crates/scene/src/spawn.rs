@@ -32,7 +32,7 @@ use crate::model_animation::ModelAnimation;
 use crate::models::{ModelMap, ObjectShape, ShapeLines, ShapePart, Shapes};
 use crate::named::NameOrIndex;
 use crate::object::ObjectEntry;
-use crate::part_of_light::{LightSource, PartOfLight, insert_light};
+use crate::part_of_light::{self, LightSource, LitEntities, PartOfLight, insert_light};
 use crate::placement::Placement;
 use crate::view::CameraEntry;
 use crate::viewport::insert_layers;
@@ -97,6 +97,38 @@ impl Spawned {
         insert_place(&mut entity, transform, origin);
         insert_light(component, &mut entity);
         true
+    }
+
+    /// Shows a part of the scene's light alone, or all of it again. The first call remembers the whole: materials,
+    /// lights, environment and backgrounds that change later come back as they were then.
+    ///
+    /// - Only components and resources change, so that every renderer shows the part: coefficients of materials that
+    ///   have no part in it are black, and so are the global ambient light and the background; lights and environments
+    ///   are hidden.
+    /// - Lines along edges, legends and backgrounds that are transparent stay as they are.
+    ///
+    /// ```
+    /// use std::path::Path;
+    ///
+    /// use bevy_app::App;
+    /// use halfway_lighting::{LinearRgba, Material, Term};
+    /// use halfway_mesh::MeshPlugin;
+    /// use halfway_scene::{PartOfLight, SceneFile, spawn};
+    ///
+    /// let mut app = App::new();
+    /// app.add_plugins(MeshPlugin);
+    /// let scene = SceneFile::from_json(r#"{"objects": [{"mesh": {"box": {}}, "material": {"preset": "brass"}}]}"#, "a box")?;
+    /// let spawned = spawn(&scene, Path::new(""), app.world_mut())?;
+    /// let ball = spawned.objects[0];
+    /// spawned.show_light(PartOfLight { term: Some(Term::Specular), ..PartOfLight::default() }, app.world_mut());
+    /// assert_eq!(app.world().get::<Material>(ball).unwrap().diffuse, LinearRgba::BLACK);
+    /// spawned.show_light(PartOfLight::default(), app.world_mut());
+    /// assert_eq!(app.world().get(ball), Some(&Material::BRASS));
+    /// # Ok::<(), halfway_scene::SceneError>(())
+    /// ```
+    pub fn show_light(&self, part: PartOfLight, world: &mut World) {
+        let Self { cameras, objects, lights, .. } = self;
+        part_of_light::show(part, LitEntities { cameras, objects, lights }, world);
     }
 
     /// Gives the camera the place and the projection of an entry. Returns whether it could: one that frames the objects,

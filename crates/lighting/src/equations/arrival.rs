@@ -23,6 +23,8 @@ pub struct Arrival<T> {
     pub distance: Option<T>,
     /// See [`Incidence::grazing`].
     pub grazing: T,
+    /// `[a, b, c]` of the attenuation; `None` of a directional light.
+    pub constants: Option<[T; 3]>,
     /// att, without the range: 1 of a directional light.
     pub attenuation: T,
     /// The factor of the range: 1 where there is none.

@@ -111,6 +111,7 @@ impl<T: Real> Directional<T> {
         Arrival {
             l: self.toward,
             distance: None,
+            constants: None,
             grazing: T::from_f64(GRAZING.into()),
             attenuation: T::one(),
             window: T::one(),

@@ -190,8 +190,16 @@ impl<T: Real> Point<T> {
             _ => (surface.normal, T::zero(), T::zero()),
         };
         let window = self.range.map_or(T::one(), |range| range_window(d, range));
-        let attenuation = attenuation(self.attenuation, d);
-        Arrival { l, distance: Some(d), grazing, attenuation, window, cos_phi: None, spot: T::one() }
+        Arrival {
+            l,
+            distance: Some(d),
+            grazing,
+            constants: Some(self.attenuation),
+            attenuation: attenuation(self.attenuation, d),
+            window,
+            cos_phi: None,
+            spot: T::one(),
+        }
     }
     // ANCHOR_END: arriving_at
 

@@ -110,6 +110,7 @@ impl LightWay {
         json!({
             "l": self.l,
             "distance": self.distance,
+            "constants": self.constants,
             "attenuation": self.attenuation,
             "window": self.window,
             "cos_phi": self.cos_phi,

@@ -129,7 +129,11 @@ impl Lines {
         };
         if let Some(distance) = way.distance {
             way_of.push((format!("d_{{{i}}}"), scalar(distance)));
+            let divisor = way.divisor(&format!("d_{{{i}}}"), &format!("d_{{{i}}}^2"), "\\,");
             factor("att", way.attenuation, &mut way_of);
+            if let Some((_, value)) = way_of.last_mut() {
+                *value = format!("1/({divisor}) = {value}");
+            }
         }
         if way.has_range() {
             factor("range", way.window, &mut way_of);

@@ -168,6 +168,8 @@ pub struct LightWay {
     pub l: [f64; 3],
     /// d; `None` of a directional light.
     pub distance: Option<f64>,
+    /// `[a, b, c]` of 1/(a + b·d + c·d²); `None` of a directional light.
+    pub constants: Option<[f64; 3]>,
     /// att, without the range.
     pub attenuation: f64,
     /// The factor of the range, 1 without one.
@@ -191,6 +193,19 @@ pub struct LightWay {
 }
 
 impl LightWay {
+    /// The divisor of the attenuation with these symbols for d, d² and a product, without terms that are 0.
+    fn divisor(&self, distance: &str, square: &str, dot: &str) -> String {
+        let [a, b, c] = self.constants.unwrap_or([1.0, 0.0, 0.0]);
+        let times = |factor: f64, symbol: &str| match factor {
+            0.0 => None,
+            1.0 => Some(symbol.to_owned()),
+            _ => Some(format!("{}{dot}{symbol}", numbers::given(factor))),
+        };
+        let constant = (a != 0.0).then(|| numbers::given(a));
+        let terms = [constant, times(b, distance), times(c, square)];
+        terms.into_iter().flatten().collect::<Vec<_>>().join(" + ")
+    }
+
     /// Whether a range weakens the light.
     fn has_range(&self) -> bool {
         self.window < 1.0

@@ -23,13 +23,17 @@ impl Display for Explanation {
             )?;
             writeln!(f, "linear RGB, and their products are channel by channel.")?;
         }
+        writeln!(f)?;
         let count = self.samples.len();
         for (number, sample) in self.samples.iter().enumerate() {
             let earlier = self.samples[..number].iter().position(|earlier| earlier.shows_as(sample));
+            if number > 0 && earlier.is_none() || number == 1 {
+                writeln!(f)?;
+            }
             match earlier {
                 Some(earlier) => write!(f, "Sample {} of {count}, as sample {}", number + 1, earlier + 1)?,
-                None if count == 1 => write!(f, "\nThe point ({}, {})", sample.at[0], sample.at[1])?,
-                None => write!(f, "\nSample {} of {count}, ({}, {})", number + 1, sample.at[0], sample.at[1])?,
+                None if count == 1 => write!(f, "The point ({}, {})", sample.at[0], sample.at[1])?,
+                None => write!(f, "Sample {} of {count}, ({}, {})", number + 1, sample.at[0], sample.at[1])?,
             }
             match earlier {
                 Some(_) => writeln!(f, ": {}", color(sample.color))?,
@@ -238,13 +242,14 @@ impl ExplainedLight {
         }
         write!(f, "\n      l = {}", vector(way.l))?;
         if let Some(d) = way.distance {
-            write!(f, ", d = {}, att = {}", number(d), number(way.attenuation))?;
+            let (divisor, att) = (way.divisor("d", "d²", "·"), number(way.attenuation));
+            write!(f, ", d = {}\n      att = 1/({divisor}) = {att}", number(d))?;
         }
         if way.has_range() {
             write!(f, ", range = {}", number(way.window))?;
         }
         if let Some(cos_phi) = way.cos_phi {
-            write!(f, "\n      cos φ = {}, spot = {}", number(cos_phi), number(way.spot))?;
+            write!(f, ", cos φ = {}, spot = {}", number(cos_phi), number(way.spot))?;
         }
         writeln!(f)?;
         let weight = way.weight_symbols();

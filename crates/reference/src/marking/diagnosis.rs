@@ -159,9 +159,8 @@ struct Candidate {
 impl<'a> Examination<'a> {
     fn new(pictures: &'a MistakenPictures, actual: &Image) -> Self {
         let bytes = actual.pixels().par_iter().map(|i| encoded(*i, pictures.encoding, Mistakes::NONE)).collect();
-        let silhouettes: Vec<bool> = pictures.sheet.silhouettes().collect();
-        let (inside, beside): (Vec<usize>, Vec<usize>) =
-            (0..silhouettes.len()).partition(|number| !silhouettes[*number]);
+        let counts = &pictures.counts;
+        let (inside, beside): (Vec<usize>, Vec<usize>) = (0..counts.len()).partition(|number| counts[*number]);
         let mut it = Self {
             pictures,
             size: actual.dimensions(),

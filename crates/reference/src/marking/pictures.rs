@@ -11,6 +11,9 @@ use crate::Oracle;
 use crate::mistakes::{Mistake, Mistakes};
 use crate::oracle::HitSheet;
 
+/// A colour that differs by more steps between the centre of a pixel and the mean of its samples depends on where they are.
+const STEADY: u8 = 1;
+
 /// Chosen pixels of a scene, and the pictures of them with each mistake.
 #[derive(Debug)]
 pub(super) struct MistakenPictures {
@@ -18,6 +21,8 @@ pub(super) struct MistakenPictures {
     pub(super) encoding: Encoding,
     /// The columns and rows of the pixels.
     pub(super) places: Vec<(u32, u32)>,
+    /// Whether each pixel counts: it is neither beside a silhouette nor does its colour depend on where it is sampled.
+    pub(super) counts: Vec<bool>,
     right: Drawn,
     /// The pictures with single mistakes, drawn when they are needed first.
     singles: Vec<OnceLock<Drawn>>,
@@ -44,9 +49,18 @@ impl MistakenPictures {
     /// For every `step`-th pixel of every `step`-th row, which shows its centre or is smooth.
     pub(super) fn new(oracle: &Oracle, (step, is_smooth): (u32, bool), encoding: Encoding) -> Self {
         let sheet = HitSheet::new(oracle, step, is_smooth);
+        let right = Drawn::new(&sheet, encoding, Mistakes::NONE);
+        let mut counts: Vec<bool> = sheet.silhouettes().map(|beside| !beside).collect();
+        if is_smooth {
+            for (i, centre) in sheet.right_at_centres().into_iter().enumerate() {
+                let centre = encoded(centre, encoding, Mistakes::NONE);
+                counts[i] &= (0..3).all(|k| centre[k].abs_diff(right.bytes[i][k]) <= STEADY);
+            }
+        }
         Self {
+            counts,
             places: sheet.places().collect(),
-            right: Drawn::new(&sheet, encoding, Mistakes::NONE),
+            right,
             sheet,
             encoding,
             singles: Mistake::ALL.iter().map(|_| OnceLock::new()).collect(),

@@ -177,6 +177,7 @@ impl OracleScene {
                     LightWay {
                         l,
                         distance: arrival.distance,
+                        constants: arrival.constants,
                         attenuation: arrival.attenuation,
                         window: arrival.window,
                         cos_phi: arrival.cos_phi,

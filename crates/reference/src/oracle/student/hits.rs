@@ -119,6 +119,19 @@ impl HitSheet {
     /// The pixels' intensities in the picture of somebody who makes these mistakes, before it is encoded. Mistakes with
     /// the whole picture, its encoding or its rows, do not show in them.
     pub(crate) fn drawn(&self, mistakes: Mistakes) -> Vec<Color> {
+        self.drawn_by(mistakes, |pixel| pixel.samples.as_ref())
+    }
+
+    /// The right intensities at the centres of the pixels.
+    pub(crate) fn right_at_centres(&self) -> Vec<Color> {
+        self.drawn_by(Mistakes::NONE, |_| None)
+    }
+
+    fn drawn_by(
+        &self,
+        mistakes: Mistakes,
+        samples: impl Fn(&PixelHits) -> Option<&[Vec<Hit>; 4]> + Sync,
+    ) -> Vec<Color> {
         let scene = &self.open.scene;
         let student = Student::new(scene, mistakes);
         let policy = if mistakes.has(Mistake::ToneMappingMissing) { Intensity::Clamp } else { self.open.policy() };
@@ -134,7 +147,7 @@ impl HitSheet {
         };
         let color = |pixel: &PixelHits| {
             let point = |[x, y]: [f64; 2]| [f64::from(pixel.at.0) + x, f64::from(pixel.at.1) + y];
-            let Some(samples) = &pixel.samples else { return along(point([0.5; 2]), &pixel.hits) };
+            let Some(samples) = samples(pixel) else { return along(point([0.5; 2]), &pixel.hits) };
             let colors = FOUR.iter().zip(samples).map(|(offset, hits)| along(point(*offset), hits));
             colors.fold([0.0; 3], |sum, color| [0, 1, 2].map(|k| sum[k] + 0.25 * color[k]))
         };
