@@ -74,8 +74,7 @@ pub struct Area {
 
 /// Finds the mistakes in pictures of one scene.
 ///
-/// The scene is drawn with each mistake that could change it, when the first wrong picture is diagnosed, at up to about
-/// 20,000 evenly spaced pixels; pixels beside the silhouette of an object are left out, unless only they differ. The share
+/// It draws the scene with each mistake that could change it, at up to about 20,000 evenly spaced pixels; pixels beside the silhouette of an object are left out, unless only they differ. The share
 /// of the difference that a mistake explains is 1 − e(actual, mistaken)/e(actual, right), where e is the sum of the
 /// differences above one step of 1/255, at most 64 for each channel. Mistakes are named that explain 95 % or more.
 /// Where the best leaves 1 % of the pixels wrong pairs are tried as well, beginning with the eight best mistakes; a pair is
@@ -272,8 +271,10 @@ impl<'a> Examination<'a> {
         let first = singles.iter().take(BEGINNINGS).enumerate();
         let pairs: Vec<[Mistake; 2]> =
             first.flat_map(|(i, a)| singles[i + 1..].iter().map(move |b| [a.mistakes[0], b.mistakes[0]])).collect();
-        let pairs = pairs.par_iter().map(|pair| self.candidate(pair));
-        let best = pairs.min_by(|a, b| a.rank.total_cmp(&b.rank))?;
+        let ranks = pairs.par_iter().enumerate().map(|(number, pair)| (self.candidate(pair).rank, number));
+        // Of equal ones the first, whatever the threads.
+        let (_, best) = ranks.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
+        let best = self.candidate(&pairs[best]);
         let enough = self.share(&best) >= EXPLAINS && best.left <= PAIR_LEAVES * singles.first()?.left;
         enough.then_some(best)
     }

@@ -1,7 +1,7 @@
 //! The pictures of a scene with mistakes.
 
 use std::borrow::Cow;
-use std::sync::OnceLock;
+use std::collections::BTreeMap;
 
 use halfway_lighting::Encoding;
 use rayon::prelude::*;
@@ -24,9 +24,8 @@ pub(super) struct MistakenPictures {
     /// Whether each pixel counts: it is neither beside a silhouette nor does its colour depend on where it is sampled.
     pub(super) counts: Vec<bool>,
     right: Drawn,
-    /// The pictures with single mistakes, drawn when they are needed first.
-    singles: Vec<OnceLock<Drawn>>,
-    possible: OnceLock<Vec<Mistake>>,
+    /// The pictures with each single mistake that could change them.
+    singles: BTreeMap<Mistake, Drawn>,
 }
 
 /// The chosen pixels of a picture.
@@ -57,38 +56,22 @@ impl MistakenPictures {
                 counts[i] &= (0..3).all(|k| centre[k].abs_diff(right.bytes[i][k]) <= STEADY);
             }
         }
-        Self {
-            counts,
-            places: sheet.places().collect(),
-            right,
-            sheet,
-            encoding,
-            singles: Mistake::ALL.iter().map(|_| OnceLock::new()).collect(),
-            possible: OnceLock::new(),
-        }
+        let could = |it: &Mistake| could_show(*it, encoding) && sheet.could_show(*it);
+        let drawn = |mistake: Mistake| {
+            if is_of_picture(mistake) {
+                let bytes = right.intensities.iter().map(|i| encoded(*i, encoding, mistake.into())).collect();
+                return (mistake, Drawn { intensities: Vec::new(), bytes });
+            }
+            (mistake, Drawn::new(&sheet, encoding, mistake.into()))
+        };
+        // One after the other, each by all threads, which share what the vertices have been shaded with.
+        let singles = Mistake::ALL.iter().copied().filter(could).map(drawn).collect();
+        Self { counts, places: sheet.places().collect(), right, singles, sheet, encoding }
     }
 
     /// The mistakes that could change pictures of the scene.
-    pub(super) fn possible(&self) -> &[Mistake] {
-        self.possible.get_or_init(|| {
-            let possible = |it: &Mistake| could_show(*it, self.encoding) && self.sheet.could_show(*it);
-            let possible: Vec<Mistake> = Mistake::ALL.iter().copied().filter(possible).collect();
-            // Drawn here, by all threads for each: pixels of one picture share what its vertices have been shaded with.
-            for mistake in &possible {
-                self.single(*mistake);
-            }
-            possible
-        })
-    }
-
-    fn single(&self, mistake: Mistake) -> &Drawn {
-        self.singles[mistake as usize].get_or_init(|| {
-            if is_of_picture(mistake) {
-                let bytes = self.encoded(&self.right.intensities, mistake.into());
-                return Drawn { intensities: Vec::new(), bytes };
-            }
-            Drawn::new(&self.sheet, self.encoding, mistake.into())
-        })
+    pub(super) fn possible(&self) -> Vec<Mistake> {
+        self.singles.keys().copied().collect()
     }
 
     fn encoded(&self, intensities: &[[f64; 3]], mistakes: Mistakes) -> Vec<Steps> {
@@ -99,11 +82,12 @@ impl MistakenPictures {
     pub(super) fn picture(&self, mistakes: &[Mistake]) -> Cow<'_, [Steps]> {
         let all: Mistakes = mistakes.iter().copied().collect();
         let of_scene: Vec<Mistake> = mistakes.iter().copied().filter(|it| !is_of_picture(*it)).collect();
+        let single = |mistake: &Mistake| self.singles.get(mistake);
         match (mistakes, &of_scene[..]) {
             ([], _) => Cow::Borrowed(&self.right.bytes),
-            (&[single], _) => Cow::Borrowed(&self.single(single).bytes),
-            (_, []) => Cow::Owned(self.encoded(&self.right.intensities, all)),
-            (_, &[single]) => Cow::Owned(self.encoded(&self.single(single).intensities, all)),
+            (_, []) if mistakes.len() > 1 => Cow::Owned(self.encoded(&self.right.intensities, all)),
+            ([one], _) if let Some(drawn) = single(one) => Cow::Borrowed(&drawn.bytes),
+            (_, [one]) if let Some(drawn) = single(one) => Cow::Owned(self.encoded(&drawn.intensities, all)),
             _ => Cow::Owned(self.encoded(&self.sheet.drawn(of_scene.into_iter().collect()), all)),
         }
     }
