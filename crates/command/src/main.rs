@@ -144,7 +144,7 @@ fn main() -> ExitCode {
     let has_window = false;
     // The commands print errors of frames themselves, and why a picture is empty.
     let empty = if has_window { "" } else { ",halfway_render::empty=off" };
-    let filter = format!("warn,wgpu_hal=off,halfway_render::errors=off{empty}");
+    let filter = format!("warn,wgpu_hal=off,egui_wgpu=error,halfway_render::errors=off{empty}");
     env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(filter))
         .format(|line, record| writeln!(line, "{}: {}", record.level().as_str().to_lowercase(), record.args()))
         .init();

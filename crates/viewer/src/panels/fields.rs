@@ -40,7 +40,7 @@ pub(crate) fn slider(ui: &mut Ui, name: &str, hint: &str, value: &mut f32, range
 
 /// A slider whose middle is nearer to its lower end.
 pub(crate) fn wide_slider(ui: &mut Ui, name: &str, hint: &str, value: &mut f32, range: RangeInclusive<f32>) -> bool {
-    let slider = Slider::new(value, range).logarithmic(true).clamping(SliderClamping::Edits);
+    let slider = Slider::new(value, range).logarithmic(true).max_decimals(4).clamping(SliderClamping::Edits);
     line(ui, name, hint, |ui| ui.add(slider).changed())
 }
 
