@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use egui::{Pos2, Rect, Vec2 as Points, pos2};
-use halfway::lighting::Lens;
+use halfway::lighting::{Lens, Viewport};
 use halfway::prelude::*;
 
 /// The camera's picture on the window.
@@ -52,4 +52,11 @@ impl Projected {
     pub(crate) fn length(&self, point: Vec3, points: f32) -> f32 {
         self.moved(point, Points::new(points, 0.0)).length()
     }
+}
+
+/// A part of the window in whole pixels.
+pub(crate) fn pixels_of(area: Rect, scale: f32) -> Viewport {
+    let pixel = |at: f32| (at * scale).round().max(0.0) as u32;
+    let [left, top, right, bottom] = [area.left(), area.top(), area.right(), area.bottom()].map(pixel);
+    Viewport::pixels([left, top, right.saturating_sub(left).max(1), bottom.saturating_sub(top).max(1)])
 }

@@ -13,7 +13,7 @@ use halfway::prelude::*;
 use halfway::reference::{Oracle, OracleError};
 use halfway::render::Canvas;
 
-use crate::viewer::pixels_of;
+use crate::projected::pixels_of;
 
 /// What the right side of the window shows.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -26,7 +26,7 @@ use crate::paint::cpu::Painter;
 use crate::paint::gpu::PaintPass;
 use crate::panels::{self, Selected, look};
 use crate::pictures::{Drawing, Wanted};
-use crate::projected::Projected;
+use crate::projected::{Projected, pixels_of};
 use crate::settings::Settings;
 use crate::split::{Split, Way, seen_by};
 use crate::times::Times;
@@ -552,13 +552,6 @@ impl SceneViewer {
             self.settings.write();
         }
     }
-}
-
-/// A part of the window in whole pixels.
-pub(crate) fn pixels_of(area: egui::Rect, scale: f32) -> Viewport {
-    let pixel = |at: f32| (at * scale).round().max(0.0) as u32;
-    let [left, top, right, bottom] = [area.left(), area.top(), area.right(), area.bottom()].map(pixel);
-    Viewport::pixels([left, top, right.saturating_sub(left).max(1), bottom.saturating_sub(top).max(1)])
 }
 
 /// One font, for all text.

@@ -20,7 +20,7 @@ const fn rule(name: &'static str, imports: &'static [&'static str], not: &'stati
 const NO_GPU: &[&str] = &["wgpu", "naga", "winit"];
 const NO_WINDOW: &[&str] = &["winit"];
 /// The rules of docs/architecture.md; `*` stands for every crate further up in this table.
-const RULES: [CrateRule; 18] = [
+const RULES: [CrateRule; 19] = [
     rule("halfway_asset", &[], NO_GPU),
     rule("halfway_mesh", &["halfway_asset"], NO_GPU),
     rule("halfway_texture", &["halfway_asset"], NO_GPU),
@@ -42,6 +42,7 @@ const RULES: [CrateRule; 18] = [
     rule("halfway_window", &["halfway_render", "halfway_lighting"], &[]),
     rule("halfway_scene", &["halfway_asset", "halfway_mesh", "halfway_texture", "halfway_lighting"], NO_GPU),
     rule("halfway", &["*"], NO_WINDOW),
+    rule("halfway_viewer", &["halfway"], &[]),
     rule("halfway_chart", &["*"], NO_WINDOW),
     rule("halfway_wild", &["halfway"], NO_WINDOW),
     rule("halfway_command", &["*"], NO_WINDOW),
