@@ -94,6 +94,11 @@ impl WholeLight {
         Self { materials, lights, environments: environments.collect(), cameras, ambient }
     }
 
+    /// Whether it is of this scene, and not of one that was in the world before.
+    fn is_of(&self, of: LitEntities) -> bool {
+        self.cameras.iter().map(|(camera, _)| camera).eq(of.cameras)
+    }
+
     fn show(&self, part: PartOfLight, of: LitEntities, world: &mut World) {
         let shading = of.cameras.first().and_then(|camera| world.get::<Shading>(*camera)).copied().unwrap_or_default();
         for &(entity, material, back) in &self.materials {
@@ -155,7 +160,7 @@ pub(crate) struct LitEntities<'a> {
 
 /// Shows a part of the light; see [`Spawned::show_light`](crate::Spawned::show_light).
 pub(crate) fn show(part: PartOfLight, of: LitEntities, world: &mut World) {
-    let whole = match world.remove_resource::<WholeLight>() {
+    let whole = match world.remove_resource::<WholeLight>().filter(|whole| whole.is_of(of)) {
         Some(whole) => whole,
         None if part == PartOfLight::default() => return,
         None => WholeLight::from_world(of, world),

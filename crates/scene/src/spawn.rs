@@ -117,7 +117,7 @@ impl Spawned {
     ///
     /// let mut app = App::new();
     /// app.add_plugins(MeshPlugin);
-    /// let scene = SceneFile::from_json(r#"{"objects": [{"mesh": {"box": {}}, "material": {"preset": "brass"}}]}"#, "a box")?;
+    /// let scene = SceneFile::from_json(r#"{"objects": [{"mesh": {"box": {}}, "material": "brass"}]}"#, "a box")?;
     /// let spawned = spawn(&scene, Path::new(""), app.world_mut())?;
     /// let ball = spawned.objects[0];
     /// spawned.show_light(PartOfLight { term: Some(Term::Specular), ..PartOfLight::default() }, app.world_mut());

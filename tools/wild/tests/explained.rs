@@ -96,7 +96,7 @@ fn check_layer(layer: &ExplainedLayer) {
     close("intensity", sum(parts), layer.intensity);
 }
 
-/// What was met, so that the test says what it has not seen.
+/// The features that were met, so that the test says which it has not seen.
 #[derive(Default, Debug)]
 struct Met {
     flat: u32,

@@ -183,7 +183,7 @@ impl Lines {
         self.equal(&format!("I_{{s,{i}}}"), &[term, color(light.terms.specular)]);
     }
 
-    /// What the corners come to.
+    /// The corners' sums with their weights.
     fn interpolation(&mut self, layer: &ExplainedLayer) {
         let corners: Vec<_> = layer.points.iter().filter_map(|point| Some((point.corner?.1, &point.sums))).collect();
         if corners.is_empty() || !layer.lit {

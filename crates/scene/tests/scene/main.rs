@@ -18,6 +18,7 @@ mod import;
 mod maps;
 mod model_animation;
 mod model_root;
+mod part_of_light;
 mod past_failures;
 mod retired;
 mod scalars;
