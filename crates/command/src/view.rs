@@ -36,7 +36,9 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     } else {
         let warnings =
             SceneViewer::new(input.into_document()).insert_into(&mut app).map_err(|error| Failure::new(2, error))?;
-        warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+        for warning in warnings {
+            eprintln!("warning: {warning}");
+        }
     }
     match app.run() {
         AppExit::Success => Ok(()),

@@ -197,7 +197,7 @@ fn plain(scene: &SceneFile) -> SceneFile {
         objects: Vec::new(),
         // Animations and images are not copied for nothing.
         size: scene.size,
-        line_style: scene.line_style.clone(),
+        line_style: scene.line_style,
         environment: scene.environment.clone(),
         camera: scene.camera.clone(),
         cameras: scene.cameras.clone(),
@@ -273,7 +273,7 @@ fn with_descendants(root: Entity, world: &World) -> Vec<Entity> {
     let (mut all, mut next) = (vec![root], 0);
     while let Some(&entity) = all.get(next) {
         next += 1;
-        all.extend(world.get::<Children>(entity).into_iter().flat_map(|children| children.iter()));
+        all.extend(world.get::<Children>(entity).into_iter().flat_map(RelationshipTarget::iter));
     }
     all
 }

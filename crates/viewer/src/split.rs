@@ -240,9 +240,8 @@ impl Drawn {
             let stop = Arc::new(AtomicBool::new(false));
             let asked = Arc::clone(&stop);
             std::thread::spawn(move || {
-                let goes_on = |_, _| match asked.load(Ordering::Relaxed) {
-                    true => ControlFlow::Break(()),
-                    false => ControlFlow::Continue(()),
+                let goes_on = |_, _| {
+                    if asked.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
                 };
                 if let Ok(picture) = oracle.draw_with(&goes_on) {
                     // Nobody waits for it any more if it cannot be sent.

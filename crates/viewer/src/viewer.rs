@@ -69,8 +69,6 @@ pub struct SceneViewer {
     /// Another number whenever the scene is another one.
     revision: u64,
     watched: Instant,
-    /// Whether its own settings are written.
-    remembers: bool,
 }
 
 impl SceneViewer {
@@ -98,7 +96,6 @@ impl SceneViewer {
             asked_to_close: false,
             revision: 0,
             watched: Instant::now(),
-            remembers: true,
         }
     }
 
@@ -252,13 +249,12 @@ impl SceneViewer {
     }
 
     fn toggle_split(&mut self, world: &mut World) {
-        match self.split.take() {
-            Some(split) => split.end(world),
-            None => {
-                let other =
-                    if self.document.scene.shading == Shading::Phong { Shading::Gouraud } else { Shading::Phong };
-                self.split = Some(Split::new(Way::Shading(other)));
-            }
+        if let Some(split) = self.split.take() {
+            split.end(world);
+        } else {
+            let is_phong = self.document.scene.shading == Shading::Phong;
+            let other = if is_phong { Shading::Gouraud } else { Shading::Phong };
+            self.split = Some(Split::new(Way::Shading(other)));
         }
     }
 
@@ -548,7 +544,7 @@ impl SceneViewer {
 
     fn set(&mut self, change: impl FnOnce(&mut Settings)) {
         change(&mut self.settings);
-        if self.remembers {
+        if self.settings.remembers {
             self.settings.write();
         }
     }

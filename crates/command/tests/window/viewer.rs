@@ -31,8 +31,15 @@ fn by_a_driver(command: &mut Command) {
     }
 }
 
-/// The command that shows the teapot; the X display is set later.
+/// The command that shows the teapot without panels; the X display is set later.
 pub(crate) fn view() -> Command {
+    let mut command = view_with_panels();
+    command.arg("--bare");
+    command
+}
+
+/// The same with panels.
+pub(crate) fn view_with_panels() -> Command {
     command(&["view", concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/teapot.obj")])
 }
 
@@ -41,6 +48,8 @@ pub(crate) fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_halfway"));
     command.args(arguments);
     by_a_driver(&mut command);
+    // The viewer begins as if for the first time, and remembers nothing.
+    command.env("XDG_CONFIG_HOME", "/dev/null");
     command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").stdin(Stdio::null());
     command
 }

@@ -110,7 +110,8 @@ fn paint_triangle(corners: [Vertex; 3], image: &Image, clip: Clip, (pixels, widt
         let [r, g, b, a] = channels(color);
         [r, g, b, a, uv.x, uv.y]
     });
-    let is_plain = values[0] == values[1] && values[0] == values[2];
+    let [bits, others @ ..] = values.map(|corner| corner.map(f32::to_bits));
+    let is_plain = others.iter().all(|other| *other == bits);
     let across: [f32; 6] = std::array::from_fn(|k| {
         let [va, vb, vc] = [values[0][k], values[1][k], values[2][k]];
         ((vb - va) * (c.y - a.y) - (vc - va) * (b.y - a.y)) / area
@@ -120,7 +121,7 @@ fn paint_triangle(corners: [Vertex; 3], image: &Image, clip: Clip, (pixels, widt
         ((vc - va) * (b.x - a.x) - (vb - va) * (c.x - a.x)) / area
     });
     let fixed = is_plain.then(|| source(values[0], image));
-    if fixed.is_some_and(|color| color == [0.0; 4]) {
+    if fixed.is_some_and(|color| color.iter().all(|channel| *channel == 0.0)) {
         return;
     }
     for y in rows[0].max(clip.low[1])..rows[1].min(clip.high[1]) {
@@ -132,7 +133,9 @@ fn paint_triangle(corners: [Vertex; 3], image: &Image, clip: Clip, (pixels, widt
         }
         let row = &mut pixels[y as usize * *width..][begin as usize..end as usize];
         if let Some(color) = fixed {
-            row.iter_mut().for_each(|pixel| *pixel = over(color, *pixel));
+            for pixel in row {
+                *pixel = over(color, *pixel);
+            }
             continue;
         }
         let (dx, dy) = (begin as f32 + 0.5 - a.x, middle - a.y);

@@ -53,8 +53,11 @@ pub(crate) fn vector<N: egui::emath::Numeric>(
     speed: f64,
 ) -> bool {
     line(ui, name, hint, |ui| {
-        let drag = |value| DragValue::new(value).speed(speed).max_decimals(3);
-        values.iter_mut().fold(false, |changed, value| ui.add(drag(value)).changed() || changed)
+        let mut changed = false;
+        for value in values {
+            changed |= ui.add(DragValue::new(value).speed(speed).max_decimals(3)).changed();
+        }
+        changed
     })
 }
 

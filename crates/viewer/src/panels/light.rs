@@ -36,7 +36,8 @@ pub(crate) fn show(ui: &mut Ui, light: &mut LightEntry) -> Edited {
         let before = light.position;
         if vector(ui, "position", hint, &mut light.position[..count], 0.02) {
             // Not everything may be 0.
-            light.position = if light.position == [0.0; 4] { before } else { light.position };
+            let is_nowhere = light.position.iter().all(|along| *along == 0.0);
+            light.position = if is_nowhere { before } else { light.position };
             changed = true;
         }
     }
@@ -46,7 +47,8 @@ pub(crate) fn show(ui: &mut Ui, light: &mut LightEntry) -> Edited {
         let hint = if light.kind == LightKind::Hemisphere { toward_sky } else { "The way the light travels" };
         let before = light.cone.direction;
         if vector(ui, "direction", hint, &mut light.cone.direction, 0.01) {
-            light.cone.direction = if light.cone.direction == [0.0; 3] { before } else { light.cone.direction };
+            let is_none = light.cone.direction.iter().all(|along| *along == 0.0);
+            light.cone.direction = if is_none { before } else { light.cone.direction };
             changed = true;
         }
     }
@@ -75,10 +77,10 @@ fn kind(ui: &mut Ui, light: &mut LightEntry) -> bool {
     if changed && light.kind != before {
         let default = LightEntry::white(light.kind);
         // The keys that the other kind does not have begin anew.
-        if light.kind != LightKind::Homogeneous && light.position[3] != 1.0 {
-            light.position = default.position;
+        if light.kind != LightKind::Homogeneous {
+            let [x, y, z, w] = light.position;
+            light.position = if w == 0.0 { default.position } else { [x / w, y / w, z / w, 1.0] };
         }
-        light.position[3] = if light.kind == LightKind::Homogeneous { light.position[3] } else { 1.0 };
         light.cone.cutoff_deg = default.cone.cutoff_deg;
         light.cone.inner_deg = default.cone.inner_deg;
         light.animation.clear();

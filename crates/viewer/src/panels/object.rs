@@ -25,20 +25,17 @@ pub(crate) fn show(ui: &mut Ui, object: &mut ObjectEntry) -> bool {
         ui.label("Its numbers are shown by colours.");
         return changed;
     }
-    match &mut object.material {
-        Some(entry) => {
-            ui.push_id("front", |ui| changed |= material::show(ui, entry));
-            if ui.button("Use the model's own").clicked() {
-                object.material = None;
-                changed = true;
-            }
+    if let Some(entry) = &mut object.material {
+        ui.push_id("front", |ui| changed |= material::show(ui, entry));
+        if ui.button("Use the model's own").clicked() {
+            object.material = None;
+            changed = true;
         }
-        None => {
-            ui.label("It has the model's own materials, or the default one.");
-            if ui.button("Give it another").clicked() {
-                object.material = Some(MaterialEntry::default());
-                changed = true;
-            }
+    } else {
+        ui.label("It has the model's own materials, or the default one.");
+        if ui.button("Give it another").clicked() {
+            object.material = Some(MaterialEntry::default());
+            changed = true;
         }
     }
     ui.separator();

@@ -25,8 +25,7 @@ impl Hands {
         app.finish();
         app.cleanup();
         let mut viewer = SceneViewer::new(Document::new(scene, "", "scene.json"));
-        viewer.settings = Settings::default();
-        viewer.remembers = false;
+        viewer.settings = Settings { remembers: false, ..Settings::default() };
         viewer.context.enable_accesskit();
         viewer.live = Some(Live::new(&viewer.document, app.world_mut()).expect("the scene is valid"));
         let mut hands = Self { app, viewer, time: 0.0, seen: empty() };
