@@ -61,7 +61,7 @@ fn panels_are_used_by_hand() {
         }
         let screen = Screen::open();
         let mut viewer = Viewer::run(&screen, program);
-        let first = viewer.shown("Phong", None);
+        let first = viewer.shown("Phong, Blinn–Phong", None);
         // "Camera" in the list.
         viewer.click(38, 138);
         let camera = eventually("the camera's values are shown", || {
@@ -69,7 +69,7 @@ fn panels_are_used_by_hand() {
             (picture.share_of_others(&first, VALUES, 8) > 0.01).then_some(picture)
         });
         viewer.press(Keysym::from(b'1'));
-        viewer.shown("flat", Some(&camera));
+        viewer.shown("flat, Blinn–Phong", Some(&camera));
         // Panels come and go.
         viewer.press(Keysym::from(b'p'));
         eventually("the panels are gone", || {

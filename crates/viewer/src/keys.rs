@@ -24,6 +24,7 @@ pub(crate) enum Command {
     Picture,
     Turntable,
     Explain,
+    Leave,
     Close,
 }
 
@@ -61,7 +62,8 @@ const KEYS: &[(Modifiers, Key, Command, &str)] = &[
     (CONTROL, Key::S, Command::Save, "save the scene"),
     (CONTROL, Key::P, Command::Picture, "save a picture"),
     (PLAIN, Key::H, Command::Help, "this list"),
-    (PLAIN, Key::Q, Command::Close, "close"),
+    (PLAIN, Key::Escape, Command::Leave, "close what is open, at last the window"),
+    (PLAIN, Key::Q, Command::Close, "close the window"),
 ];
 
 /// The mouse, and the keys that the orbit camera reads.

@@ -234,6 +234,13 @@ impl SceneViewer {
             Command::Picture => self.ask(Purpose::SavePicture),
             Command::Turntable => self.ask(Purpose::SaveTurntable),
             Command::Explain => self.explain(live, world),
+            Command::Leave => {
+                let was_open =
+                    self.dialog.take().is_some() || std::mem::take(&mut self.help) || self.explained.take().is_some();
+                if !was_open {
+                    self.close(world);
+                }
+            }
             Command::Close => self.close(world),
         }
         false
@@ -244,7 +251,7 @@ impl SceneViewer {
         if !self.document.is_changed() || std::mem::replace(&mut self.asked_to_close, true) {
             world.write_message(AppExit::Success);
         } else {
-            self.say("the scene has changed: Ctrl+S saves it, Q once more closes without");
+            self.say("the scene has changed: Ctrl+S saves it, the same key once more closes without");
         }
     }
 

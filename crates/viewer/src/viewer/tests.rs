@@ -314,7 +314,9 @@ fn keys_do_what_their_list_says() {
     assert!(orbit.pitch > 1.5, "from above: {orbit:?}");
     hands.key(Key::H, Modifiers::NONE);
     assert!(hands.texts().iter().any(|text| text == "isometric view"), "{:?}", hands.texts());
-    hands.key(Key::H, Modifiers::NONE);
+    hands.key(Key::Escape, Modifiers::NONE);
+    assert!(!hands.texts().iter().any(|text| text == "isometric view"), "the list is closed");
+    assert!(hands.app.should_exit().is_none(), "and not the window");
     hands.key(Key::P, Modifiers::NONE);
     assert!(hands.find(Role::Button, "Open").is_none(), "the panels are hidden");
     hands.key(Key::P, Modifiers::NONE);
