@@ -30,7 +30,7 @@ impl Spawned {
     /// ```
     /// use std::path::Path;
     /// use bevy_ecs::world::World;
-    /// use halfway_asset::{Asset, Assets};
+    /// use halfway_asset::Assets;
     /// use halfway_lighting::Shading;
     /// use halfway_mesh::{Lines, Mesh};
     /// use halfway_scene::{LightsEntry, SceneFile, spawn};
