@@ -316,6 +316,9 @@ mod tests {
     use crate::light::{LightEntry, LightKind};
     use crate::spawn::spawn;
 
+    /// A change of a scene, with its name.
+    type Edit = (&'static str, fn(&mut SceneFile));
+
     fn world() -> World {
         let mut world = World::new();
         world.init_resource::<Assets<Mesh>>();
@@ -351,7 +354,7 @@ mod tests {
 
     #[test]
     fn what_follows_is_what_is_spawned() {
-        let edits: [(&str, fn(&mut SceneFile)); 12] = [
+        let edits: [Edit; 12] = [
             ("material", |scene| scene.objects[1].material = Some(MaterialEntry::Preset("brass".into()))),
             ("back", |scene| scene.objects[0].back_material = Some(MaterialEntry::Preset("jade".into()))),
             ("looks", |scene| (scene.objects[0].shading, scene.objects[1].reflectance) = (Some(Shading::Flat), None)),
@@ -400,7 +403,7 @@ mod tests {
 
     #[test]
     fn other_changes_need_a_new_scene() {
-        let edits: [(&str, fn(&mut SceneFile)); 6] = [
+        let edits: [Edit; 6] = [
             ("mesh", |scene| scene.objects[0].mesh = MeshEntry::Box(halfway_mesh::Cuboid::default())),
             ("objects", |scene| scene.objects.push(ball())),
             ("own material", |scene| scene.objects[0].material = None),
