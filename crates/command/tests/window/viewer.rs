@@ -370,6 +370,16 @@ impl<'a> Viewer<'a> {
         })
     }
 
+    /// A picture under a title that ends with `state`. Unlike those of [`shown`](Self::shown) it need not have settled:
+    /// panels have a graph of times, which never does.
+    pub(crate) fn titled(&mut self, state: &str) -> Picture {
+        eventually(&format!("a picture under the title … {state}"), || {
+            self.assert_running();
+            let is_titled = self.title()?.ends_with(&format!(" · {state}"));
+            self.picture().filter(|picture| is_titled && !picture.is_flat())
+        })
+    }
+
     pub(crate) fn title(&self) -> Option<String> {
         let (name, text) = (self.screen.atom("_NET_WM_NAME"), self.screen.atom("UTF8_STRING"));
         let request = self.screen.connection.get_property(false, self.window, name, text, 0, 256).ok()?;
