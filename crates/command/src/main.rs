@@ -88,7 +88,7 @@ enum Command {
     Mark(mark::MarkArgs),
     /// Explain a pixel: its surfaces, every light and term there, their sum, its clamping and encoding, in 64-bit arithmetic
     ///
-    /// What is printed comes from the reference renderer as it draws the pixel. Vectors are in eye space.
+    /// The numbers are those of the reference renderer as it draws the pixel. Vectors are in eye space.
     Explain(explain::ExplainArgs),
     /// Draw each term of each light by itself, and their sums, on one sheet with captions
     ///

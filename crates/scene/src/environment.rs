@@ -3,6 +3,7 @@
 use std::ops::Bound::Included;
 use std::path::{Path, PathBuf};
 
+use bevy_ecs::entity::Entity;
 use bevy_ecs::world::World;
 use halfway_asset::Assets;
 use halfway_lighting::Range;
@@ -50,14 +51,14 @@ impl Object for EnvironmentEntry {
 
 impl EnvironmentEntry {
     /// Puts it into the world. Images that cannot be read are a warning, and squares are shown.
-    pub(crate) fn spawn(&self, base_dir: &Path, warnings: &mut Vec<String>, world: &mut World) {
+    pub(crate) fn spawn(&self, base_dir: &Path, warnings: &mut Vec<String>, world: &mut World) -> Entity {
         let map = self.load(base_dir).unwrap_or_else(|error| {
             warnings.push(format!("environment: {error}; squares of magenta and black are shown"));
             EnvironmentMap::missing()
         });
         let map = world.resource_mut::<Assets<EnvironmentMap>>().add(map);
         let rotation = self.rotation_deg.to_radians();
-        world.spawn(EnvironmentLight { map, strength: self.strength, rotation, sky: self.sky });
+        world.spawn(EnvironmentLight { map, strength: self.strength, rotation, sky: self.sky }).id()
     }
 
     fn load(&self, base_dir: &Path) -> Result<EnvironmentMap, TextureError> {

@@ -85,9 +85,10 @@ impl Spawned {
         pairs.filter(|(_, pair)| has_moved(pair)).all(is_one)
     }
 
-    /// Removes all entities of the scene.
+    /// Removes all entities of the scene. Resources stay.
     pub fn despawn(self, world: &mut World) {
-        for entity in [self.lights, self.objects, self.cameras, vec![self.camera]].concat() {
+        let environment = self.environment.into_iter().collect();
+        for entity in [self.lights, self.objects, environment, self.cameras, vec![self.camera]].concat() {
             // An object that shears has its frame in another entity.
             let parent = world.get::<ChildOf>(entity).map(ChildOf::parent);
             let is_outer =
@@ -141,7 +142,7 @@ impl Spawned {
         self.lights = spawn_listed_lights((scene, &entries), self.camera, &self.objects, self.origin, world);
     }
 
-    /// What concerns the whole picture.
+    /// Follows the values that concern the whole picture.
     fn look_again(&self, scene: &SceneFile, world: &mut World) {
         world.insert_resource(GlobalAmbient(LinearRgba::from_f32_array_no_alpha(scene.ambient)));
         world.insert_resource(ViewTolerance(scene.tolerance.unwrap_or(Tolerance::EXACT)));

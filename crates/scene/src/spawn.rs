@@ -51,6 +51,8 @@ pub struct Spawned {
     pub objects: Vec<Entity>,
     /// The lights: the scene's, in its order; or the models' own; or the default ones.
     pub lights: Vec<Entity>,
+    /// The light from all directions, if the scene has one.
+    pub environment: Option<Entity>,
     /// The scene's own warnings, and those of its models' repairs and omissions, one sentence each, with the file's
     /// name.
     pub warnings: Vec<String>,
@@ -267,16 +269,14 @@ fn spawn_seen(
     }
     let mut warnings = [scene.warnings.clone(), shapes.warnings].concat();
     hang_maps(scene, base_dir, &frames, &mut warnings, world);
-    if let Some(environment) = &scene.environment {
-        environment.spawn(base_dir, &mut warnings, world);
-    }
+    let environment = scene.environment.as_ref().map(|environment| environment.spawn(base_dir, &mut warnings, world));
     let legend =
         seen.iter().find_map(|seen| if let SeenFrom::Entry(entry) = seen { entry.legend.as_deref() } else { None });
     if let Some(title) = legend {
         spawn_legend(title, &objects, &mut warnings, world);
     }
     let is_animated = [&cameras[..], &frames, &lights].concat().iter().any(|entity| is_animated(*entity, world));
-    let spawned = Spawned { camera, cameras, objects: frames, lights, warnings, is_animated, origin };
+    let spawned = Spawned { camera, cameras, objects: frames, lights, environment, warnings, is_animated, origin };
     spawned.show_light(PartOfLight { term: scene.only, source }, world);
     Ok(spawned)
 }

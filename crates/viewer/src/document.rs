@@ -77,6 +77,11 @@ impl Document {
         !self.saved
     }
 
+    /// Takes back a change that cannot be shown: the scene is that of the last finished one.
+    pub(crate) fn reject(&mut self) {
+        self.scene = self.settled.clone();
+    }
+
     /// Ends a change, such as a drag of a slider: it is one step of the history.
     pub(crate) fn settle(&mut self) {
         self.before.push(std::mem::replace(&mut self.settled, self.scene.clone()));

@@ -1,4 +1,4 @@
-//! What can go wrong.
+//! The errors of the viewer.
 
 use std::fmt;
 use std::path::PathBuf;

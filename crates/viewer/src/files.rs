@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Context, Key, ScrollArea, TextEdit, Ui};
 
-/// What the chosen file is for.
+/// The use of the chosen file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     Open,

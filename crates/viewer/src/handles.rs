@@ -16,7 +16,7 @@ const AXES: [(Vec3, Color32); 3] = [
 /// The length of an axis of the light that is selected, in points.
 const AXIS: f32 = 56.0;
 
-/// What a drag or a click has done.
+/// The result of a drag or a click.
 #[derive(Default)]
 pub(crate) struct Handled {
     /// The light that was clicked or dragged.

@@ -11,7 +11,7 @@ use crate::error::ViewerError;
 /// The scene in the world.
 pub(crate) struct Live {
     pub(crate) spawned: Spawned,
-    /// What was spawned, with the changes since.
+    /// The scene as it was spawned, with the changes since.
     shown: SceneFile,
 }
 
@@ -22,7 +22,10 @@ impl Live {
             None => spawn(&shown, &document.base_dir, world),
             Some(camera) => spawn_seen_from(&shown, &document.base_dir, camera, world),
         };
-        spawned.map(|spawned| Self { spawned, shown }).map_err(ViewerError::Scene)
+        let spawned = spawned.map_err(ViewerError::Scene)?;
+        // A scene without one leaves that of the scene before.
+        world.insert_resource(ViewTolerance(shown.tolerance.unwrap_or(Tolerance::EXACT)));
+        Ok(Self { spawned, shown })
     }
 
     /// Shows the document as it stands. Where a change needs a new scene, the camera stays where it is.
@@ -104,15 +107,20 @@ impl Live {
         self.spawned.lights.iter().filter_map(|light| entry_of(*light, world)).collect()
     }
 
-    /// Makes the lights of the scene a list that can be changed.
-    pub(crate) fn list_lights<'a>(&self, scene: &'a mut SceneFile, world: &World) -> &'a mut Vec<LightEntry> {
-        if !matches!(scene.lights, Some(LightsEntry::List(_))) {
-            scene.lights = Some(LightsEntry::List(self.light_entries(scene, world)));
-        }
-        match &mut scene.lights {
-            Some(LightsEntry::List(list)) => list,
-            _ => unreachable!("a list was made of it"),
-        }
+    /// Changes the lights of the scene, which become a list of its own.
+    pub(crate) fn edit_lights<R>(
+        &self,
+        scene: &mut SceneFile,
+        world: &World,
+        edit: impl FnOnce(&mut Vec<LightEntry>) -> R,
+    ) -> R {
+        let mut list = match &mut scene.lights {
+            Some(LightsEntry::List(list)) => std::mem::take(list),
+            _ => self.light_entries(scene, world),
+        };
+        let edited = edit(&mut list);
+        scene.lights = Some(LightsEntry::List(list));
+        edited
     }
 }
 

@@ -13,7 +13,7 @@ use crate::error::ViewerError;
 /// The frames of a full turn, at 30 a second.
 const TURN: u32 = 90;
 
-/// What is to be drawn.
+/// A picture to be drawn.
 pub(crate) struct Wanted {
     pub(crate) scene: SceneFile,
     pub(crate) base_dir: PathBuf,

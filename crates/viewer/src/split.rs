@@ -15,7 +15,7 @@ use halfway::render::Canvas;
 
 use crate::projected::pixels_of;
 
-/// What the right side of the window shows.
+/// The way in which the right side of the window is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Way {
     /// The same in this shading.
@@ -56,7 +56,7 @@ pub(crate) struct Split {
 /// The picture of the reference renderer.
 #[derive(Default)]
 struct Drawn {
-    /// What it was asked to draw: all that the picture depends on.
+    /// The picture that it was asked for: all that it depends on.
     asked: Option<Key>,
     job: Option<Job>,
     /// The bytes of the picture, red, green and blue, of what was asked.

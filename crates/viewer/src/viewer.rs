@@ -57,7 +57,7 @@ pub struct SceneViewer {
     drawing: Option<Drawing>,
     help: bool,
     times: Times,
-    /// What was said about a pixel.
+    /// The explanation of a pixel.
     explained: Option<String>,
     /// The part of the window that the picture has, in points.
     area: egui::Rect,
@@ -68,6 +68,8 @@ pub struct SceneViewer {
     asked_to_close: bool,
     /// Another number whenever the scene is another one.
     revision: u64,
+    /// The revision that the world shows.
+    followed: u64,
     watched: Instant,
 }
 
@@ -95,6 +97,7 @@ impl SceneViewer {
             is_changing: false,
             asked_to_close: false,
             revision: 0,
+            followed: 0,
             watched: Instant::now(),
         }
     }
@@ -154,7 +157,7 @@ impl SceneViewer {
         }
     }
 
-    /// What a key asks for; returns whether the scene has changed.
+    /// Does what a command asks for; returns whether the scene has changed.
     fn obey(&mut self, command: Command, live: &Live, world: &mut World) -> bool {
         let scene = &mut self.document.scene;
         match command {
@@ -180,14 +183,9 @@ impl SceneViewer {
                 return true;
             }
             Command::Intensity => {
-                let all = [
-                    Intensity::Clamp,
-                    Intensity::Renormalize { smoothing: 0.0 },
-                    Intensity::Reinhard { white: Intensity::WHITE },
-                    Intensity::Aces,
-                ];
-                let here = all.iter().position(|policy| *policy == scene.intensity).unwrap_or(0);
-                scene.intensity = all[(here + 1) % all.len()];
+                let all = look::INTENSITIES;
+                let here = all.iter().position(|(policy, _)| *policy == scene.intensity).unwrap_or(0);
+                scene.intensity = all[(here + 1) % all.len()].0;
                 return true;
             }
             Command::Tolerance => {
@@ -372,7 +370,7 @@ impl SceneViewer {
             self.selected = Selected::Light(index);
         }
         if handled.changed {
-            *live.list_lights(&mut self.document.scene, world) = lights;
+            live.edit_lights(&mut self.document.scene, world, |list| *list = lights);
         }
         handled.changed
     }
@@ -425,19 +423,23 @@ impl SceneViewer {
         }
     }
 
-    /// Ends a change when the pointer is released, and has the world follow the document.
+    /// Has the world follow the document, and ends a change when the pointer is released.
     fn after_changes(&mut self, context: &Context, changed: bool, world: &mut World) {
         self.is_changing |= changed;
+        self.revision += u64::from(changed);
+        if self.followed != self.revision
+            && let Some(live) = &mut self.live
+            && let Err(error) = live.follow(&self.document, world)
+        {
+            self.document.reject();
+            self.is_changing = false;
+            return self.say(&error.to_string());
+        }
+        self.followed = self.revision;
         let is_held = context.input(|input| input.pointer.any_down()) || context.text_edit_focused();
         if self.is_changing && !is_held {
             (self.is_changing, self.asked_to_close) = (false, false);
             self.document.settle();
-        }
-        self.revision += u64::from(changed);
-        let Some(live) = &mut self.live else { return };
-        if let Err(error) = live.follow(&self.document, world) {
-            self.document.undo();
-            self.say(&error.to_string());
         }
     }
 

@@ -133,7 +133,7 @@ pub fn all(charted: &[ChartedAdapter], mut done: impl FnMut(&FailurePage)) -> Re
     drawn.chain(judged).map(|page| page.inspect(&mut done)).collect()
 }
 
-/// What the pages are, for those that link them.
+/// A sentence about the pages, for those that link them.
 const ABOUT: &str = "Each known failure has its own page: pictures, how large the error is, the cause, the remedy, and the \
                      test that checks it. The reference renderer draws the errors of methods; the adapters of this report \
                      and the CPU draw those of rounding.";

@@ -122,7 +122,7 @@ pub struct ExplainedTriangle {
 /// A point at which terms of the lights are evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExplainedPoint {
-    /// What it stands for.
+    /// The place that it stands for.
     pub at: Frequency,
     /// The number of the vertex, and its weight at the visible point.
     pub corner: Option<(u32, f64)>,

@@ -32,7 +32,7 @@ const BESIDE_WEIGHT: f64 = 0.05;
 /// The share of the difference on either side that an area leaves out.
 const BESIDE: f64 = 0.02;
 
-/// What explains the difference of a picture.
+/// The mistakes that explain the difference of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
     /// The share of right pixels among those that show an object or should, 0 to 1; those on silhouettes do not count.
@@ -74,8 +74,8 @@ pub struct Area {
 
 /// Finds the mistakes in pictures of one scene.
 ///
-/// It draws the scene with each mistake that could change it, at up to about 20,000 evenly spaced pixels; pixels beside the silhouette of an object are left out, unless only they differ. The share
-/// of the difference that a mistake explains is 1 − e(actual, mistaken)/e(actual, right), where e is the sum of the
+/// It draws the scene with each mistake that could change it, at up to about 20,000 evenly spaced pixels; pixels beside
+/// the silhouette of an object are left out, unless only they differ. The share of the difference that a mistake explains is 1 − e(actual, mistaken)/e(actual, right), where e is the sum of the
 /// differences above one step of 1/255, at most 64 for each channel. Mistakes are named that explain 95 % or more.
 /// Where the best leaves 1 % of the pixels wrong pairs are tried as well, beginning with the eight best mistakes; a pair is
 /// named if it leaves at most a quarter of what the best single one leaves.
@@ -148,7 +148,7 @@ struct Candidate {
     mistakes: Vec<Mistake>,
     /// The pixels in the examination's order.
     picture: Vec<Steps>,
-    /// What is left of the difference on the pixels that count.
+    /// The rest of the difference on the pixels that count.
     left: f64,
     /// The same with a little of the difference beside silhouettes, which decides between mistakes that are equal
     /// elsewhere.

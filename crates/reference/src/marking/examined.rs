@@ -15,7 +15,7 @@ use crate::metrics::{Bars, SizeMismatch, Verdict, judge};
 use crate::oracle::{OracleError, Stopped};
 use crate::{Image, Oracle};
 
-/// What is found of a picture.
+/// The verdict on a picture, and the mistakes in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Examined {
     /// Whether it passes. Where it does not, figures cover only some pixels.

@@ -1,7 +1,7 @@
 //! Marks pictures that others have drawn of a scene, and finds the mistake that explains the difference.
 //!
-//! [`examine`] judges a picture, and diagnoses one that does not pass. A [`Marker`] has the oracle draw the scene with each mistake of a [list](crate::mistakes::Mistake), and with pairs
-//! where no single one will do, and ranks them by how much of the difference they explain. A [`Rubric`] turns that into
+//! [`examine`] judges a picture, and diagnoses one that does not pass. A [`Marker`] has the oracle draw the scene with
+//! each mistake of a [list](crate::mistakes::Mistake), and with pairs where no single one will do, and ranks them by how much of the difference they explain. A [`Rubric`] turns that into
 //! points.
 
 mod diagnosis;

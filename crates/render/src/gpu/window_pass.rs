@@ -10,7 +10,7 @@ use bevy_math::UVec2;
 #[derive(Resource)]
 pub struct WindowPass(pub Box<dyn DrawOverWindow>);
 
-/// What a [`WindowPass`] does.
+/// The work of a [`WindowPass`].
 pub trait DrawOverWindow: Send + Sync + 'static {
     /// Draws over the picture, and submits what it has encoded. The view has the format that is given, and `size` is its
     /// width and height in pixels.

@@ -6,7 +6,7 @@ pub(crate) mod gpu;
 use egui::ClippedPrimitive;
 use egui::epaint::textures::TexturesDelta;
 
-/// What one frame of the panels looks like.
+/// One frame of the panels, as triangles.
 #[derive(Default)]
 pub(crate) struct Painted {
     pub(crate) primitives: Vec<ClippedPrimitive>,

@@ -1,4 +1,4 @@
-//! What concerns the whole picture: the scene's values and the camera's.
+//! The values that concern the whole picture: the scene's and the camera's.
 
 use bevy_ecs::prelude::*;
 use egui::{Slider, Ui};
@@ -32,14 +32,16 @@ pub(crate) fn scene(ui: &mut Ui, scene: &mut SceneFile) -> bool {
 }
 
 fn intensity(ui: &mut Ui, value: &mut Intensity) -> bool {
-    let all = [
-        (Intensity::Clamp, "clamp"),
-        (Intensity::Renormalize { smoothing: 0.0 }, "renormalise"),
-        (Intensity::Reinhard { white: Intensity::WHITE }, "reinhard"),
-        (Intensity::Aces, "aces"),
-    ];
-    one_of(ui, "intensity", "What is done with intensities above 1", value, &all)
+    one_of(ui, "intensity", "The treatment of intensities above 1", value, &INTENSITIES)
 }
+
+/// The treatments of intensities above 1, with their names.
+pub(crate) const INTENSITIES: [(Intensity, &str); 4] = [
+    (Intensity::Clamp, "clamp"),
+    (Intensity::Renormalize { smoothing: 0.0 }, "renormalise"),
+    (Intensity::Reinhard { white: Intensity::WHITE }, "reinhard"),
+    (Intensity::Aces, "aces"),
+];
 
 /// The camera is no part of what can be undone: it is changed where it stands.
 pub(crate) fn camera(ui: &mut Ui, camera: Entity, world: &mut World) {

@@ -13,7 +13,7 @@ use halfway::scene::{LightEntry, LightKind, MeshEntry, ObjectEntry, SceneFile};
 
 use crate::live::Live;
 
-/// What is selected.
+/// The part of the scene that is selected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Selected {
     /// The scene as a whole: shading, background, ambient light.
@@ -81,7 +81,7 @@ pub(crate) fn add_light(scene: &mut SceneFile, kind: LightKind, live: &Live, wor
             light.cone.direction = camera.up;
         }
     }
-    live.list_lights(scene, world).push(light);
+    live.edit_lights(scene, world, |lights| lights.push(light));
     true
 }
 
@@ -132,9 +132,7 @@ pub(crate) fn inspector(
                     *selected = Selected::Scene;
                 } else if edited.changed {
                     let light = light.clone();
-                    if let Some(entry) = live.list_lights(scene, world).get_mut(index) {
-                        *entry = light;
-                    }
+                    live.edit_lights(scene, world, |lights| lights[index] = light);
                 }
                 edited.removed || edited.changed
             }
@@ -152,12 +150,13 @@ pub(crate) fn inspector(
 
 /// Removes a light of the scene; the lights of models or the default ones become a list of the scene's before.
 pub(crate) fn remove_light(scene: &mut SceneFile, index: usize, live: &Live, world: &World) -> bool {
-    let lights = live.list_lights(scene, world);
-    let is_there = index < lights.len();
-    if is_there {
-        lights.remove(index);
-    }
-    is_there
+    live.edit_lights(scene, world, |lights| {
+        let is_there = index < lights.len();
+        if is_there {
+            lights.remove(index);
+        }
+        is_there
+    })
 }
 
 /// A panel at a side of the window.

@@ -436,6 +436,37 @@ fn a_pixel_is_explained() {
 }
 
 #[test]
+fn a_change_that_cannot_be_shown_is_taken_back() {
+    let mut hands = Hands::new(scene(Vec::new()));
+    hands.key(Key::Num1, Modifiers::NONE);
+    let before = hands.scene().clone();
+    hands.viewer.document.scene.samples = 3;
+    (hands.viewer.is_changing, hands.viewer.revision) = (true, hands.viewer.revision + 1);
+    hands.frames(2);
+    assert_eq!(hands.scene(), &before, "the last step stays");
+    let (message, _) = hands.viewer.message.as_ref().expect("it is said");
+    assert!(message.contains("samples"), "{message}");
+    hands.key(Key::Z, Modifiers::COMMAND);
+    assert_eq!(hands.scene().shading, Shading::Phong, "and can be undone");
+}
+
+#[test]
+fn an_environment_is_not_left_over() {
+    let shape = halfway::scene::EnvironmentEntry::new(vec!["missing.png".into()]);
+    let mut hands = Hands::new(SceneFile { environment: Some(shape), ..scene(Vec::new()) });
+    let count = |hands: &mut Hands| {
+        let world = hands.app.world_mut();
+        world.query::<&halfway::texture::environment::EnvironmentLight>().iter(world).count()
+    };
+    assert_eq!(count(&mut hands), 1);
+    // Another mesh needs another scene.
+    hands.viewer.document.scene.objects[0].mesh = MeshEntry::Box(Cuboid::default());
+    (hands.viewer.is_changing, hands.viewer.revision) = (true, hands.viewer.revision + 1);
+    hands.frames(2);
+    assert_eq!(count(&mut hands), 1);
+}
+
+#[test]
 fn a_file_that_cannot_be_opened_leaves_the_scene() {
     let mut hands = Hands::new(scene(Vec::new()));
     let before = hands.scene().clone();

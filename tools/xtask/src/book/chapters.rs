@@ -13,7 +13,7 @@ use crate::failure::{Failure, Result};
 pub(crate) const SOURCE: &str = "docs/book/src";
 /// The folder in it with the chapters that `halfway chart` writes, one for each known failure.
 pub(crate) const FAILURES: &str = "failures";
-/// What a link to a picture of the documentation begins with, and what stands for it in the built book.
+/// The beginning of a link to a picture of the documentation, and of the same link in the built book.
 const PICTURES: [&str; 2] = ["../../pictures/", "pictures/"];
 /// The folders whose files may have anchors.
 const CODE: [&str; 3] = ["crates", "examples", "src"];
@@ -106,7 +106,7 @@ impl Chapter {
         self.text.split("{{#include ").skip(1).filter_map(include).collect()
     }
 
-    /// What is wrong with it: parts that every chapter has and this one lacks, files and anchors that are not there.
+    /// The faults of it: parts that every chapter has and this one lacks, files and anchors that are not there.
     fn problems(&self, root: &Path) -> Vec<String> {
         let mut problems = Vec::new();
         let prose = |count: fn(&str) -> usize| -> usize {

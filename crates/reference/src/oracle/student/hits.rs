@@ -1,4 +1,4 @@
-//! What the rays through chosen pixels meet, and the pictures that are shaded from it.
+//! The hits of the rays through chosen pixels, and the pictures that are shaded from them.
 
 use bevy_ecs::entity::Entity;
 use bevy_math::{DVec3, UVec2};
@@ -37,7 +37,7 @@ struct PixelHits {
     silhouette: bool,
 }
 
-/// What a pixel shows: a number that is the same for the same sides of the same objects, and the depth of the nearest;
+/// The surfaces that a pixel shows: a number that is the same for the same sides of the same objects, and the depth of the nearest;
 /// infinite where that is the background.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
