@@ -74,11 +74,12 @@ pub struct Area {
 
 /// Finds the mistakes in pictures of one scene.
 ///
-/// It draws the scene with each mistake that could change it, at up to about 20,000 evenly spaced pixels; pixels beside
-/// the silhouette of an object are left out, unless only they differ. The share of the difference that a mistake explains is 1 − e(actual, mistaken)/e(actual, right), where e is the sum of the
-/// differences above one step of 1/255, at most 64 for each channel. Mistakes are named that explain 95 % or more.
-/// Where the best leaves 1 % of the pixels wrong pairs are tried as well, beginning with the eight best mistakes; a pair is
-/// named if it leaves at most a quarter of what the best single one leaves.
+/// It draws the scene with each mistake that could change it, at up to about 20,000 evenly spaced pixels; pixels
+/// beside the silhouette of an object are left out, unless only they differ. The share of the difference that a
+/// mistake explains is 1 − e(actual, mistaken)/e(actual, right), where e is the sum of the differences above one step
+/// of 1/255, at most 64 for each channel. Mistakes are named that explain 95 % or more. Where the best leaves 1 % of
+/// the pixels wrong pairs are tried as well, beginning with the eight best mistakes; a pair is named if it leaves at
+/// most a quarter of what the best single one leaves.
 #[derive(Debug)]
 pub struct Marker {
     pictures: MistakenPictures,

@@ -436,6 +436,26 @@ fn a_pixel_is_explained() {
 }
 
 #[test]
+fn values_are_changed_without_a_mouse() {
+    let mut hands = Hands::new(scene(Vec::new()));
+    let focused = |hands: &Hands| {
+        let focus = hands.seen.focus;
+        hands.seen.nodes.iter().find(|(id, _)| *id == focus).map(|(_, node)| node.role())
+    };
+    // The first number is the tolerance, among the values of the scene; it is written where it stands.
+    for _ in 0..60 {
+        hands.key(Key::Tab, Modifiers::NONE);
+        if matches!(focused(&hands), Some(Role::SpinButton | Role::TextInput)) {
+            break;
+        }
+    }
+    hands.key(Key::A, Modifiers::COMMAND);
+    hands.frame(vec![Event::Text("2".to_owned())]);
+    hands.key(Key::Enter, Modifiers::NONE);
+    assert_eq!(hands.scene().tolerance, Some(Tolerance { steps: 2.0, pixels: 0.0 }), "{:?}", focused(&hands));
+}
+
+#[test]
 fn a_change_that_cannot_be_shown_is_taken_back() {
     let mut hands = Hands::new(scene(Vec::new()));
     hands.key(Key::Num1, Modifiers::NONE);
