@@ -140,23 +140,39 @@ fn judge_adapter(args: &VerifyArgs, mut input: SceneInput) -> Result<(), Failure
     verdict(args.max, &of_bytes, float.as_ref())
 }
 
-/// Judges a given picture by the oracle, without an adapter.
-fn judge_picture(args: &VerifyArgs, mut input: SceneInput, file: &Path) -> Result<(), Failure> {
-    let encoding = input.scene.output;
-    let picture = picture::decoded(file)?;
-    let size = picture_size(file, &picture, args.size)?;
-    input.scene.size = size.to_array();
-    let mut app = App::new();
-    app.add_plugins(HalfwayPlugins::reference());
-    set_up(&mut app, &input)?;
-    app.update();
+/// A picture that somebody has drawn of a scene's first moment.
+pub(crate) struct Given {
+    /// The App in which the oracle finds the scene.
+    pub(crate) app: App,
+    pub(crate) actual: Image,
+    pub(crate) size: UVec2,
+    /// The bars of its pixels, with `max` steps for bytes.
+    pub(crate) bars: Bars,
+}
 
-    let bars = match Bars::for_decoded(&picture, encoding) {
-        bars if bars.are_clamped() => Bars { most: args.max.into(), worst: args.max.into(), ..bars },
-        bars => bars,
-    };
+impl Given {
+    pub(crate) fn new(mut input: SceneInput, file: &Path, size: SizeArgs, max: u8) -> Result<Self, Failure> {
+        let encoding = input.scene.output;
+        let picture = picture::decoded(file)?;
+        let size = picture_size(file, &picture, size)?;
+        input.scene.size = size.to_array();
+        let mut app = App::new();
+        app.add_plugins(HalfwayPlugins::reference());
+        set_up(&mut app, &input)?;
+        app.update();
+        let bars = match Bars::for_decoded(&picture, encoding) {
+            bars if bars.are_clamped() => Bars { most: max.into(), worst: max.into(), ..bars },
+            bars => bars,
+        };
+        Ok(Self { app, actual: Image::from_decoded(&picture, encoding), size, bars })
+    }
+}
+
+/// Judges a given picture by the oracle, without an adapter.
+fn judge_picture(args: &VerifyArgs, input: SceneInput, file: &Path) -> Result<(), Failure> {
+    let encoding = input.scene.output;
+    let Given { mut app, actual, size, bars } = Given::new(input, file, args.size, args.max)?;
     let progress = Progress::for_tiles(1);
-    let actual = Image::from_decoded(&picture, encoding);
     let told = |done: u32, of: u32| progress.tile(0, done, of);
     let drawn = Drawn::new(&mut app, actual, None, bars.are_clamped(), &told)?;
     let found = drawn.judged(bars)?;

@@ -7,17 +7,14 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use halfway::prelude::*;
-use halfway::reference::Image;
 use halfway::reference::marking::{ExamineError, Examined, Rubric, examine};
-use halfway::reference::metrics::Bars;
 use halfway::scene::options::remove_what_is_laid_over;
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::{DIFFERENT, Failure, STOPPED};
 use crate::input::SceneInput;
-use crate::picture;
 use crate::progress::Progress;
-use crate::verify::{picture_size, set_up, text};
+use crate::verify::{Given, text};
 
 #[derive(Args, Debug)]
 pub(crate) struct MarkArgs {
@@ -86,21 +83,9 @@ pub(crate) fn run(args: &MarkArgs) -> Result<(), Failure> {
     }
 }
 
-fn report(args: &MarkArgs, mut input: SceneInput, file: &Path, rubric: &Rubric) -> Result<Report, Failure> {
+fn report(args: &MarkArgs, input: SceneInput, file: &Path, rubric: &Rubric) -> Result<Report, Failure> {
     let encoding = input.scene.output;
-    let picture = picture::decoded(file)?;
-    let size = picture_size(file, &picture, args.size)?;
-    input.scene.size = size.to_array();
-    let mut app = App::new();
-    app.add_plugins(HalfwayPlugins::reference());
-    set_up(&mut app, &input)?;
-    app.update();
-
-    let bars = match Bars::for_decoded(&picture, encoding) {
-        bars if bars.are_clamped() => Bars { most: args.max.into(), worst: args.max.into(), ..bars },
-        bars => bars,
-    };
-    let actual = Image::from_decoded(&picture, encoding);
+    let Given { mut app, actual, size, bars } = Given::new(input, file, args.size, args.max)?;
     let progress = Progress::for_tiles(1);
     let told = |done: u32, of: u32| progress.tile(0, done, of);
     let examined = examine(app.world_mut(), &actual, encoding, bars, &told).map_err(|error| match error {

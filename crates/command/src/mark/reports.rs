@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use halfway::reference::marking::{Area, Cause, Explanation};
+use halfway::reference::marking::{Area, Cause, Finding};
 use serde_json::{Value, json};
 
 use super::Report;
@@ -48,7 +48,7 @@ fn names(cause: &Cause) -> impl Iterator<Item = &'static str> {
     cause.alternatives.iter().map(|mistake| mistake.name())
 }
 
-fn describe(text: &mut String, report: &Report, explanation: &Explanation) {
+fn describe(text: &mut String, report: &Report, explanation: &Finding) {
     for cause in &explanation.causes {
         for (number, mistake) in cause.alternatives.iter().enumerate() {
             let or = if number > 0 { "  or, which looks the same here: " } else { "" };
@@ -68,7 +68,7 @@ fn describe(text: &mut String, report: &Report, explanation: &Explanation) {
 /// Everything, under halfway's own keys.
 pub(super) fn json(report: &Report) -> Value {
     let diagnosis = report.examined.diagnosis.as_ref();
-    let explained = |explanation: &Explanation| {
+    let explained = |explanation: &Finding| {
         let mistake = |mistake: &halfway::reference::mistakes::Mistake| json!({ "name": mistake.name(), "explanation": mistake.explanation(), "remedy": mistake.remedy() });
         let cause = |cause: &Cause| cause.alternatives.iter().map(mistake).collect::<Vec<_>>();
         json!({

@@ -38,14 +38,14 @@ pub struct Diagnosis {
     /// The share of right pixels among those that show an object or should, 0 to 1; those on silhouettes do not count.
     pub right: f64,
     /// The explanations, the best first; empty where no listed mistake explains the difference.
-    pub explanations: Vec<Explanation>,
+    pub explanations: Vec<Finding>,
     /// The mistake that comes nearest where none explains the difference.
-    pub nearest: Option<Explanation>,
+    pub nearest: Option<Finding>,
 }
 
 /// One mistake, or two at once, that explain a difference.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Explanation {
+pub struct Finding {
     /// One or two causes; all of them are there.
     pub causes: Vec<Cause>,
     /// The share of the difference that they explain, at most 1.
@@ -299,7 +299,7 @@ impl<'a> Examination<'a> {
         Cause { alternatives }
     }
 
-    fn explanation(&self, candidate: &Candidate, causes: Vec<Cause>) -> Explanation {
+    fn explanation(&self, candidate: &Candidate, causes: Vec<Cause>) -> Finding {
         let after = self.seen(&candidate.mistakes);
         let gain = |i: usize| error(self.as_is[i], self.right[i]) - error(after[i], candidate.picture[i]);
         let gains: Vec<f64> = (0..self.counted).map(|i| gain(i).max(0.0)).collect();
@@ -308,7 +308,7 @@ impl<'a> Examination<'a> {
             *by_object.entry(self.pictures.sheet.object(self.order[i])).or_default() += gain;
         }
         let object = by_object.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-        Explanation {
+        Finding {
             causes,
             share: self.share(candidate),
             area: self.area(&gains),

@@ -9,7 +9,7 @@ use bevy_math::UVec2;
 use halfway_lighting::{Camera, Encoding, Samples};
 use thiserror::Error;
 
-use super::diagnosis::{Diagnosis, Explanation, Marker};
+use super::diagnosis::{Diagnosis, Finding, Marker};
 use super::rubric::Rubric;
 use crate::metrics::{Bars, SizeMismatch, Verdict, judge};
 use crate::oracle::{OracleError, Stopped};
@@ -91,7 +91,7 @@ impl Examined {
     }
 
     /// The name of the object on which an explanation explains most, if that is an object with a name.
-    pub fn object(&self, explanation: &Explanation) -> Option<&str> {
+    pub fn object(&self, explanation: &Finding) -> Option<&str> {
         let object = explanation.object?;
         self.names.iter().find(|(entity, _)| *entity == object).map(|(_, name)| name.as_str())
     }

@@ -12,7 +12,7 @@ mod rubric;
 mod score;
 mod steps;
 
-pub use diagnosis::{Area, Cause, Diagnosis, Explanation, Marker};
+pub use diagnosis::{Area, Cause, Diagnosis, Finding, Marker};
 pub use examined::{ExamineError, Examined, examine};
 pub use mistaken::mistaken_picture;
 pub use rubric::{Rubric, RubricError};
