@@ -2,7 +2,7 @@
 
 use crate::render::scene::{Lamp, Scene, Thing, glowing};
 use crate::render::stage::Stage;
-use halfway::lighting::Show;
+use halfway::lighting::{Show, Upright};
 use halfway::prelude::*;
 use halfway::record::{FrameToDraw, ReferenceDrawing};
 use halfway::render::take_picture;
@@ -28,6 +28,14 @@ fn drawn(stage: &mut Stage, show: Show) -> Rgba32FImage {
         Picture::Float(picture) => picture,
         Picture::Byte(_) => panic!("bytes"),
     }
+}
+
+/// The same with another direction up.
+fn under(stage: &mut Stage, upright: Upright, show: Show) -> Rgba32FImage {
+    let world = stage.world();
+    let camera = world.query_filtered::<Entity, With<Camera>>().single(world).expect("a camera");
+    world.entity_mut(camera).insert(upright);
+    drawn(stage, show)
 }
 
 /// How many pixels have more of this channel than of both others.
@@ -63,7 +71,7 @@ fn each_shows_its_own() {
     let grey = grid.pixels().zip(nothing.pixels()).filter(|(a, b)| a != b).count();
     assert!(grey > 200, "{grey}");
     // On the other side of the box.
-    let ceiling = drawn(&mut stage, Show { grid: true, up: Vec3::NEG_Y, ..Show::default() });
+    let ceiling = under(&mut stage, Upright(Vec3::NEG_Y), Show { grid: true, ..Show::default() });
     assert!(ceiling.pixels().zip(grid.pixels()).filter(|(a, b)| a != b).count() > 200);
 }
 
@@ -83,7 +91,7 @@ fn the_reference_shows_the_same() {
     let wrong = differ(&picture);
     assert!(wrong <= 20, "{wrong} pixels differ");
     // A planted fault: another upright direction.
-    let other = drawn(&mut stage, Show { up: Vec3::X, ..show });
+    let other = under(&mut stage, Upright(Vec3::X), show);
     assert!(differ(&other) > 200, "{} pixels differ", differ(&other));
 }
 
@@ -93,7 +101,7 @@ fn a_direction_without_length_is_refused() {
     stage.set(&scene());
     let world = stage.world();
     let camera = world.query_filtered::<Entity, With<Camera>>().single(world).expect("a camera");
-    world.entity_mut(camera).insert(Show { grid: true, up: Vec3::ZERO, ..Show::default() });
+    world.entity_mut(camera).insert((Show { grid: true, ..Show::default() }, Upright(Vec3::ZERO)));
     let error = take_picture(stage.world()).expect_err("no direction").to_string();
-    assert!(error.contains("Show.up"), "{error}");
+    assert!(error.contains("Upright"), "{error}");
 }

@@ -115,6 +115,7 @@ mod show;
 mod shown;
 mod term;
 mod tolerance;
+mod upright;
 mod vertex_colors;
 mod view;
 mod viewport;
@@ -158,6 +159,7 @@ pub use show::Show;
 pub use shown::Shown;
 pub use term::Term;
 pub use tolerance::{Tolerance, ViewTolerance};
+pub use upright::Upright;
 pub use vertex_colors::VertexColors;
 pub use view::View;
 #[cfg(feature = "ecs")]

@@ -1,9 +1,5 @@
 //! Lines that explain a scene.
 
-use glam::Vec3;
-
-use crate::invalid::{Fields, InvalidValue, Problem};
-
 /// Lines that explain a scene, as a component of the camera: axes, normals, lights, the ground. Default: none.
 ///
 /// Their lengths follow the scene: d is the diagonal of the box around all that is shown.
@@ -16,8 +12,8 @@ use crate::invalid::{Fields, InvalidValue, Problem};
 /// world.spawn((Camera::default(), Show { axes: true, grid: true, ..Show::default() }));
 /// ```
 ///
-/// They are drawn as [`LineStyle`](crate::LineStyle) says of lines, in pictures that are taken, not in windows.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// They are drawn as [`LineStyle`](crate::LineStyle) says of lines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "ecs", derive(bevy_ecs::component::Component))]
 #[expect(clippy::struct_excessive_bools, reason = "each is shown or not, whatever the others are")]
 pub struct Show {
@@ -32,17 +28,10 @@ pub struct Show {
     /// lights stars with their cone, d/4 long; directional lights arrows toward the middle of the scene; hemisphere
     /// lights a short arrow from the sky and one from the ground.
     pub lights: bool,
-    /// A grid on the ground, the plane through the lowest point of the scene. Its spacing is 1, 2 or 5 times a power of
-    /// ten, the least that makes 20 squares or fewer along the scene.
+    /// A grid on the ground, the plane through the lowest point of the scene, across the axis that is nearest to the
+    /// camera's [`Upright`](crate::Upright). Its spacing is 1, 2 or 5 times a power of ten, the least that makes 20 squares
+    /// or fewer along the scene.
     pub grid: bool,
-    /// The direction that is upright, for the ground: along the axis that is nearest to it. Default +Y.
-    pub up: Vec3,
-}
-
-impl Default for Show {
-    fn default() -> Self {
-        Self { axes: false, normals: false, face_normals: false, lights: false, grid: false, up: Vec3::Y }
-    }
 }
 
 impl Show {
@@ -64,16 +53,5 @@ impl Show {
     /// Whether anything is shown.
     pub fn any(&self) -> bool {
         self.axes || self.normals || self.face_normals || self.lights || self.grid
-    }
-
-    /// Checks the direction.
-    ///
-    /// # Errors
-    /// It has no length, or is not finite.
-    pub fn validate(&self) -> Result<(), InvalidValue> {
-        if self.up.is_finite() && self.up != Vec3::ZERO {
-            return Ok(());
-        }
-        Err(Fields::for_owner("Show").error("up", Problem::NoDirection { value: self.up.to_array() }))
     }
 }

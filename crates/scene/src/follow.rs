@@ -170,8 +170,7 @@ impl Spawned {
             entity.insert(view);
         }
         put(&mut entity, scene.edges.as_ref().map(EdgesEntry::component));
-        let up = entry.map_or(Vec3::Y, |entry| Vec3::from_array(entry.up));
-        put(&mut entity, Some(Show { up, ..scene.show }).filter(Show::any));
+        put(&mut entity, Some(scene.show).filter(Show::any));
     }
 }
 

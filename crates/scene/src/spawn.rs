@@ -12,7 +12,7 @@ use bevy_math::{DAffine3, DMat4, DVec3, Mat4, Vec3};
 use bevy_transform::components::Transform;
 use halfway_asset::{Assets, Handle};
 use halfway_lighting::{AlphaMode, BackMaterial, GlobalAmbient, Legend, Material, VertexColors, ViewTolerance};
-use halfway_lighting::{Camera, Origin, Projection, Samples, Show, current_camera, world_place};
+use halfway_lighting::{Camera, Origin, Projection, Samples, Show, Upright, current_camera, world_place};
 use halfway_mesh::{Bounds, Lines, Lines3d, Mesh, Mesh3d, origin_of_box};
 use halfway_texture::{Maps, SurfaceMap, TexelImage, TexelMeaning, Texture, UvSet};
 
@@ -410,8 +410,8 @@ fn spawn_camera(
     insert_some(&mut entity, viewport);
     insert_layers(&mut entity, entry.layers.as_ref());
     insert_some(&mut entity, scene.line_style.as_ref().map(LineStyleEntry::component));
-    let show = Show { up: Vec3::from_array(entry.up), ..scene.show };
-    insert_some(&mut entity, Some(show).filter(Show::any));
+    insert_some(&mut entity, Some(scene.show).filter(Show::any));
+    insert_some(&mut entity, Some(Upright(entry.up.into())).filter(|upright| *upright != Upright::default()));
     entity.id()
 }
 

@@ -7,19 +7,23 @@ use std::f32::consts::FRAC_PI_2;
 /// The steepest pitch, in radians: a little short of straight up or down, where yaw is undefined.
 pub const PITCH_LIMIT: f32 = FRAC_PI_2 - 1e-3;
 
-/// An eye on a sphere around a target, looking at it with +Y up.
+/// An eye on a sphere around a target, looking at it with one direction up.
 ///
-/// eye = target + distance · (cos pitch · sin yaw, sin pitch, cos pitch · cos yaw).
+/// Where that is +Y, eye = target + distance · (cos pitch · sin yaw, sin pitch, cos pitch · cos yaw). For another one all of
+/// this is turned by the smallest turn that brings +Y there, as [`View::rotation`](halfway_lighting::View::rotation) has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
     /// The point looked at, in the space of the camera's parent (the world where it has none). Finite.
     pub target: Vec3,
     /// From the target to the eye, in units of length, above 0.
     pub distance: f32,
-    /// About +Y, in radians; 0 looks along −Z and π/2 along −X. Any number; turning keeps it in [−π, π].
+    /// About [`up`](Self::up), in radians; where that is +Y, 0 looks along −Z and π/2 along −X. Any number; turning keeps it
+    /// in [−π, π].
     pub yaw: f32,
     /// Above the horizontal, in radians, in ±[`PITCH_LIMIT`]; positive looks down.
     pub pitch: f32,
+    /// The direction that is up in the picture, of any length above 0. Default +Y.
+    pub up: Vec3,
 }
 
 impl Orbit {
@@ -31,21 +35,28 @@ impl Orbit {
         let backward = eye - target;
         let distance = backward.length();
         if !(distance > 0.0 && distance.is_finite()) {
-            return Self { target, distance: 1.0, yaw: 0.0, pitch: 0.0 };
+            return Self { target, distance: 1.0, yaw: 0.0, pitch: 0.0, up: Vec3::Y };
         }
         let (yaw, pitch) = angles(backward, backward.x.atan2(backward.z));
-        Self { target, distance, yaw, pitch }
+        Self { target, distance, yaw, pitch, up: Vec3::Y }
     }
 
-    /// The orbit of a camera at `transform`, around the point `distance` in front of it. A roll is levelled.
+    /// The orbit of a camera at `transform`, around the point `distance` in front of it, with +Y up. A roll is levelled.
     pub fn from_transform(transform: &Transform, distance: f32) -> Self {
-        let backward = transform.rotation * Vec3::Z;
+        Self::with_up(transform, distance, Vec3::Y)
+    }
+
+    /// The same with another direction up.
+    pub fn with_up(transform: &Transform, distance: f32, up: Vec3) -> Self {
+        let rotation = turn_to(up).inverse() * transform.rotation;
+        let backward = rotation * Vec3::Z;
         // Looking straight down or up, the direction of the picture's top gives the yaw.
-        let top = transform.rotation * Vec3::Y * -backward.y.signum();
+        let top = rotation * Vec3::Y * -backward.y.signum();
         let steep = backward.x.hypot(backward.z) < 1e-3;
         let heading = if steep { top } else { backward };
         let (yaw, pitch) = angles(backward, heading.x.atan2(heading.z));
-        Self { target: transform.translation - backward * distance, distance, yaw, pitch }
+        let target = transform.translation - transform.rotation * Vec3::Z * distance;
+        Self { target, distance, yaw, pitch, up }
     }
 
     /// The position of the eye.
@@ -55,7 +66,7 @@ impl Orbit {
 
     /// The rotation from the camera's axes to those of its parent.
     pub fn rotation(&self) -> Quat {
-        Quat::from_rotation_y(self.yaw) * Quat::from_rotation_x(-self.pitch)
+        turn_to(self.up) * Quat::from_rotation_y(self.yaw) * Quat::from_rotation_x(-self.pitch)
     }
 
     /// Turns about the target, in radians; the pitch stops at ±[`PITCH_LIMIT`].
@@ -69,6 +80,16 @@ impl Orbit {
     /// Moves eye and target along the picture's right and up, in units of length.
     pub fn pan(&mut self, right: f32, up: f32) {
         self.target += self.rotation() * Vec3::new(right, up, 0.0);
+    }
+}
+
+/// The turn that brings +Y to a direction.
+fn turn_to(up: Vec3) -> Quat {
+    match up.try_normalize() {
+        None | Some(Vec3::Y) => Quat::IDENTITY,
+        // Every turn about a horizontal axis is as small.
+        Some(up) if up.y < -1.0 + 1e-6 => Quat::from_xyzw(0.0, 0.0, 1.0, 0.0),
+        Some(up) => Quat::from_rotation_arc(Vec3::Y, up),
     }
 }
 
@@ -107,6 +128,25 @@ mod tests {
             assert!(close(forward, (target - eye).normalize()), "{name}: looks along {forward}");
             let up = orbit.rotation() * Vec3::Y;
             assert!(up.y >= 0.0, "{name}: the picture is upside down");
+        }
+    }
+
+    /// Whatever is up, the views of the viewer are those of `--view` and `--up`.
+    #[test]
+    fn another_direction_is_up() {
+        use halfway_lighting::View;
+        for up in [Vec3::Y, Vec3::Z, Vec3::X, Vec3::NEG_Y, Vec3::NEG_Z, Vec3::new(0.3, -0.2, 2.0)] {
+            for (azimuth, elevation) in [(0.0, 0.0), (0.5, 0.4), (-2.0, -1.2)] {
+                let orbit = Orbit { up, ..Orbit::looking_at(Vec3::new(0.0, 0.0, 3.0), Vec3::ZERO) };
+                let orbit = Orbit { yaw: azimuth, pitch: elevation, ..orbit };
+                let view = View { azimuth, elevation }.rotation(up);
+                assert!(orbit.rotation().dot(view).abs() > 1.0 - 1e-6, "{up}: {} and {view}", orbit.rotation());
+                assert!((orbit.rotation() * Vec3::X).dot(up).abs() < 1e-5, "{up}: the horizon is level");
+                let transform = Transform::from_translation(orbit.eye()).with_rotation(orbit.rotation());
+                let back = Orbit::with_up(&transform, 3.0, up);
+                assert!((back.yaw - azimuth).abs() < 1e-5 && (back.pitch - elevation).abs() < 1e-5, "{back:?}");
+                assert!(close(back.target, Vec3::ZERO));
+            }
         }
     }
 

@@ -11,14 +11,14 @@ use bevy_input::{ButtonInput, InputPlugin, InputSystems};
 use bevy_math::{UVec2, Vec2, Vec3};
 use bevy_time::{Real, Time, TimePlugin, TimeSystems};
 use bevy_transform::components::Transform;
-use halfway_lighting::{Camera, Projection, SharedPart, SharingCameras};
+use halfway_lighting::{Camera, Projection, SharedPart, SharingCameras, Upright};
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// A camera that mouse and keys move around a target; needs [`OrbitCameraPlugin`].
 ///
 /// The entity's [`Transform`] follows every change of [`orbit`](Self::orbit). Conversely, if another system moves the
 /// `Transform`, the orbit continues from there, with its target `distance` in front of the eye. So an animated camera
-/// stays animated, and its scale is left alone.
+/// stays animated, and its scale is left alone. A change of the entity's [`Upright`] levels the picture by it.
 #[derive(Component, Clone, Debug, PartialEq)]
 #[require(Transform)]
 pub struct OrbitCamera {
@@ -49,7 +49,12 @@ impl OrbitCamera {
     /// A camera that takes over from `transform` and turns about the point `distance` in front of
     /// it. The picture stays as it is, also at a pole or with a roll, until the camera is moved.
     pub fn resume(transform: &Transform, distance: f32) -> Self {
-        let orbit = Orbit::from_transform(transform, distance);
+        Self::resume_upright(transform, distance, Upright::default())
+    }
+
+    /// The same with another direction up, once it is moved.
+    pub fn resume_upright(transform: &Transform, distance: f32, upright: Upright) -> Self {
+        let orbit = Orbit::with_up(transform, distance, upright.0);
         Self { shown: Some(orbit), ..Self::new(orbit) }
     }
 
@@ -277,24 +282,35 @@ pub(crate) fn modified(keys: &ButtonInput<KeyCode>) -> bool {
     keys.any_pressed([AltLeft, AltRight, ControlLeft, ControlRight, SuperLeft, SuperRight])
 }
 
+type Driven = (
+    Entity,
+    &'static mut OrbitCamera,
+    &'static mut Transform,
+    Option<&'static mut Camera>,
+    Option<Ref<'static, Upright>>,
+);
+
 fn drive(
     mut input: Input,
     (area, pointer): (Res<DragArea>, Res<Pointer>),
     time: Res<Time<Real>>,
     sharing: SharingCameras,
     mut held: Local<Held>,
-    mut cameras: Query<(Entity, &mut OrbitCamera, &mut Transform, Option<&mut Camera>)>,
+    mut cameras: Query<Driven>,
 ) {
     let part = held.part(input.is_dragged(), &pointer, &sharing);
     let share = part.map_or(1.0, |part| part.size[1] as f32 / pointer.picture.y.max(1) as f32);
     let all_input = input.camera_input(time.delta_secs(), area.0.y * share);
-    for (entity, mut orbit, mut transform, camera) in &mut cameras {
+    for (entity, mut orbit, mut transform, camera, upright) in &mut cameras {
         let is_moved = part.is_none_or(|part| part.camera == entity);
         let camera_input = if is_moved { all_input } else { CameraInput::default() };
         if transform.is_changed() && orbit.shown == Some(orbit.orbit) {
             let orbit = orbit.bypass_change_detection();
-            orbit.orbit = Orbit::from_transform(&transform, orbit.orbit.distance);
+            orbit.orbit = Orbit::with_up(&transform, orbit.orbit.distance, orbit.orbit.up);
             orbit.shown = Some(orbit.orbit);
+        }
+        if let Some(upright) = upright.filter(|upright| upright.is_changed() && upright.0 != orbit.orbit.up) {
+            orbit.orbit = Orbit::with_up(&transform, orbit.orbit.distance, upright.0);
         }
         if camera_input != CameraInput::default() {
             let projection = camera.as_ref().map_or_else(Projection::default, |camera| camera.projection);

@@ -11,7 +11,7 @@ use bevy_ecs::schedule::ScheduleLabel;
 use bevy_input::{InputPlugin, InputSystems};
 use bevy_math::{UVec2, Vec3};
 use bevy_transform::components::Transform;
-use halfway_lighting::Camera;
+use halfway_lighting::{Camera, Upright};
 use halfway_render::{GpuTimer, RenderPlugin, RenderSet, SurfaceTarget};
 
 /// Runs the App in a window: one `App::update` a frame, at the display's rate.
@@ -84,13 +84,18 @@ impl Plugin for WindowPlugin {
     }
 }
 
-type NewCameras<'w, 's> =
-    Query<'w, 's, (Entity, &'static Transform), (Added<Camera>, Without<OrbitCamera>, Without<ChildOf>)>;
+type NewCameras<'w, 's> = Query<
+    'w,
+    's,
+    (Entity, &'static Transform, Option<&'static Upright>),
+    (Added<Camera>, Without<OrbitCamera>, Without<ChildOf>),
+>;
 
 /// Gives a camera without an orbit one that does not change its picture.
 fn give_orbits(cameras: NewCameras, mut commands: Commands) {
-    for (entity, transform) in &cameras {
-        commands.entity(entity).insert(OrbitCamera::resume(transform, distance_to_turn_at(transform)));
+    for (entity, transform, upright) in &cameras {
+        let (distance, upright) = (distance_to_turn_at(transform), upright.copied().unwrap_or_default());
+        commands.entity(entity).insert(OrbitCamera::resume_upright(transform, distance, upright));
     }
 }
 

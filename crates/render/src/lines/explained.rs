@@ -2,6 +2,7 @@
 
 use crate::lines::drawing::Drawing;
 use crate::lines::marks::{Hidden, Mark};
+use crate::quantities::no_camera;
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemState;
 use bevy_math::{DAffine3, DVec3, Vec3};
@@ -12,7 +13,7 @@ use halfway_frame::view::matrices::normal_matrix;
 use halfway_lighting::equations::Transcendental as _;
 use halfway_lighting::lights::LightQueries;
 use halfway_lighting::{
-    LightComponent, LinearRgba, Show, Shown, current_camera, light_direction, light_position, light_up,
+    LightComponent, LinearRgba, Show, Shown, Upright, current_camera, light_direction, light_position, light_up,
 };
 use halfway_mesh::{Lines, Lines3d, Mesh, Mesh3d, face_normal};
 use std::f64::consts::TAU;
@@ -49,16 +50,17 @@ type Data<'w, 's> = (
 /// The marks of all that is shown.
 ///
 /// # Errors
-/// [`RenderError::Invalid`] for an invalid [`Show`] or light.
-pub(super) fn marks(world: &mut World, drawing: &Drawing, show: &Show) -> Result<Explained, RenderError> {
+/// [`RenderError::Invalid`] for an invalid [`Upright`] or light; [`RenderError::NoCamera`].
+pub(super) fn marks(world: &mut World, drawing: &Drawing, show: Show) -> Result<Explained, RenderError> {
     let mut explained = Explained::default();
     if !show.any() {
         return Ok(explained);
     }
-    show.validate().map_err(|source| {
-        let camera = current_camera(world);
-        let name = |camera| label(camera, world.get::<Name>(camera));
-        RenderError::Invalid { entity: camera.map_or_else(|_| String::new(), name), source }
+    let camera = current_camera(world).map_err(no_camera)?;
+    let upright = world.get::<Upright>(camera).copied().unwrap_or_default();
+    upright.validate().map_err(|source| {
+        let entity = label(camera, world.get::<Name>(camera));
+        RenderError::Invalid { entity, source }
     })?;
     let mut state = SystemState::<Data>::new(world);
     let (objects, strokes, lights, shown, meshes, lines) = state.get(world).map_err(|_| RenderError::NoPicture)?;
@@ -79,7 +81,7 @@ pub(super) fn marks(world: &mut World, drawing: &Drawing, show: &Show) -> Result
     }
     let scene = extent.or_unit();
     if show.grid {
-        grid(&scene, show.up, &mut Sketch::new(drawing, &mut explained.on_ground, GRID, Hidden::Omit));
+        grid(&scene, upright.0, &mut Sketch::new(drawing, &mut explained.on_ground, GRID, Hidden::Omit));
     }
     if show.axes {
         axes(&scene, &mut Sketch::new(drawing, &mut explained.among, AXIS, Hidden::Dash));
@@ -225,7 +227,7 @@ fn grid(scene: &Extent, up: Vec3, sketch: &mut Sketch) {
     }
 }
 
-fn add_normals(mesh: &Mesh, world_from_mesh: &DAffine3, show: &Show, diagonal: f64, sketch: &mut Sketch) {
+fn add_normals(mesh: &Mesh, world_from_mesh: &DAffine3, show: Show, diagonal: f64, sketch: &mut Sketch) {
     let positions: Vec<DVec3> =
         mesh.positions().iter().map(|p| world_from_mesh.transform_point3(p.as_dvec3())).collect();
     let corners = |triangle: [u32; 3]| triangle.map(|vertex| positions[vertex as usize]);

@@ -387,3 +387,15 @@ fn wheel_and_keys_move_the_camera_under_the_pointer_and_the_last_one_when_it_lea
     let first = shared.stage.app.world().get::<OrbitCamera>(shared.cameras[0]).expect("an orbit").orbit.distance;
     assert!(near(first, nearer), "{first}");
 }
+
+#[test]
+fn another_upright_direction_levels_the_picture_by_it() {
+    let mut stage = Stage::new(16);
+    stage.app.world_mut().entity_mut(stage.camera).insert(Upright(Vec3::X));
+    stage.frames(1);
+    let level = |stage: &Stage| (stage.transform().rotation * Vec3::X).dot(Vec3::X).abs() < ROUNDING;
+    assert!(level(&stage) && stage.transform().translation.distance(EYE) < ROUNDING, "{:?}", stage.transform());
+    stage.drag(MouseButton::Left, 100.0, 50.0);
+    assert!(level(&stage), "and stays so while it is turned");
+    assert!((stage.transform().rotation * Vec3::Y).dot(Vec3::X) > 0.5, "{:?}", stage.transform());
+}
