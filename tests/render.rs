@@ -64,4 +64,5 @@ mod render {
     mod viewports;
     mod visibility;
     mod why_empty;
+    mod windows;
 }

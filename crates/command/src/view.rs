@@ -20,9 +20,6 @@ pub(crate) struct ViewArgs {
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     args.drawing.input.without_picture()?;
     let input = SceneInput::read(&args.drawing, &args.drawing.options())?;
-    if input.scene.all_cameras().any(|camera| camera.legend.is_some()) {
-        eprintln!("warning: a window shows no legend; `halfway render` draws it");
-    }
     if args.drawing.samples.is_some_and(|samples| samples > 4) {
         eprintln!("warning: a window has four samples a pixel; `halfway render` averages more");
     }

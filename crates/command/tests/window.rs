@@ -91,6 +91,33 @@ fn panels_are_used_by_hand() {
     }
 }
 
+/// Lines lie over the picture of a window, whoever draws it.
+#[test]
+fn lines_are_shown() {
+    const LINES: [&str; 5] = ["--edges", "all", "--show", "axes", "--background=white..teal"];
+    let shown = |arguments: &[&str], on_cpu: bool| -> Picture {
+        let mut program = view();
+        program.args(arguments);
+        if on_cpu {
+            without_drivers(&mut program);
+            program.args(["--adapter", "cpu"]);
+        }
+        let screen = Screen::open();
+        let mut viewer = Viewer::run(&screen, program);
+        viewer.take_size(600, 400);
+        eventually("a window of this size", || {
+            viewer.picture().filter(|picture| (picture.width, picture.height) == (600, 400))
+        });
+        viewer.shown("Phong, Blinn–Phong", None)
+    };
+    let whole = [0, 0, 600, 400];
+    let (plain, by_cpu, by_card) = (shown(&[], true), shown(&LINES, true), shown(&LINES, false));
+    assert!(by_cpu.share_of_others(&plain, whole, 40) > 0.5, "nothing is drawn");
+    // Along silhouettes the card's surfaces may reach a pixel farther, and hide or show a line there.
+    let share = by_cpu.share_of_others(&by_card, whole, 40);
+    assert!(share < 0.005, "{share}");
+}
+
 /// Hides all graphics drivers from the program.
 fn without_drivers(program: &mut Command) {
     for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES", "__EGL_VENDOR_LIBRARY_DIRS"] {

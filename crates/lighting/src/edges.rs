@@ -12,8 +12,8 @@ use crate::range::Range;
 ///
 /// They are drawn over the finished picture, smooth whatever the camera's samples are, and do not take part in lighting:
 /// their colour is the one that is given, under any intensity policy. Of an edge that lies behind a surface the hidden
-/// part is left out or dashed. Pictures that are taken have them (`take_picture`, `render_picture`, files); windows and
-/// textures of an engine do not.
+/// part is left out or dashed. Windows show them, and pictures that are taken have them (`take_picture`, `render_picture`,
+/// files); textures of an engine do not.
 ///
 /// ```
 /// use bevy_color::LinearRgba;

@@ -1,8 +1,7 @@
 //! A legend for pictures that show numbers by colours.
 
-/// A bar of the colours that stand for numbers, with ticks and a title, at the right edge of pictures that are taken
-/// (`take_picture`, `render_picture`, files). Windows do not show it, and pictures of less than 160 × 120 pixels have no
-/// room for it.
+/// A bar of the colours that stand for numbers, with ticks and a title, at the right edge of windows and of pictures that
+/// are taken (`take_picture`, `render_picture`, files). Pictures of less than 160 × 120 pixels have no room for it.
 ///
 /// ```
 /// use bevy_ecs::world::World;

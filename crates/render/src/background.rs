@@ -6,26 +6,29 @@ use bevy_color::LinearRgba;
 use bevy_ecs::prelude::World;
 use halfway_frame::error::RenderError;
 use halfway_frame::passes::{Passes, Phase};
-use halfway_frame::view::camera::View;
 use halfway_lighting::{Camera, Encoding};
 use image::Rgba;
 
-/// Puts the camera's background behind the newest frame's picture, where it is more than one opaque colour: where nothing
+/// Puts this camera's background behind the newest frame's picture, where it is more than one opaque colour: where nothing
 /// is drawn, and in part where blended surfaces and the edges of surfaces cover a pixel in part. Colours are those of what
 /// is seen, not multiplied by the opacity. A picture that is `kept` takes the background's place.
 ///
 /// # Errors
 /// Those of drawing how much of the background is seen.
-pub(crate) fn put_behind(world: &mut World, picture: &mut Picture, kept: Option<&Picture>) -> Result<(), RenderError> {
-    let Some(camera) = world.get_resource::<View>().and_then(|view| view.camera) else { return Ok(()) };
+pub(crate) fn put_behind(
+    world: &mut World,
+    picture: &mut Picture,
+    kept: Option<&Picture>,
+    camera: &Camera,
+) -> Result<(), RenderError> {
     let is_sky = world.get_resource::<Passes>().is_some_and(|passes| passes.has(Phase::Sky));
     if is_sky || kept.is_none() && camera.background_is_plain() {
         return Ok(());
     }
     let shares = background_shares(world)?;
     match kept {
-        Some(kept) => draw_kept(picture, &shares, &camera, kept),
-        None => draw_background(picture, &shares, &camera),
+        Some(kept) => draw_kept(picture, &shares, camera, kept),
+        None => draw_background(picture, &shares, camera),
     }
     Ok(())
 }

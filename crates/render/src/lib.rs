@@ -9,6 +9,7 @@ mod adapter;
 mod background;
 mod choice;
 mod cpu;
+mod finished_window;
 #[cfg(feature = "wgpu")]
 mod gpu;
 mod has_lines;
@@ -30,6 +31,7 @@ pub use background::{draw_background, draw_kept};
 pub use choice::AdapterChoice;
 pub use cpu::canvas::{Canvas, CanvasTarget};
 pub use cpu::device::Cpu;
+pub use finished_window::WindowPicture;
 #[cfg(feature = "wgpu")]
 pub use gpu::device::Gpu;
 #[cfg(feature = "wgpu")]

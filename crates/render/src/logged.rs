@@ -3,12 +3,14 @@
 use std::collections::HashSet;
 
 use bevy_ecs::prelude::*;
-use halfway_lighting::{AlphaMode, Load, Material, Viewport};
+use halfway_lighting::{AlphaMode, Material};
 use halfway_mesh::Mesh3d;
 
 use crate::cpu::canvas::CanvasTarget;
 #[cfg(feature = "wgpu")]
 use crate::gpu::surface::SurfaceTarget;
+#[cfg(feature = "wgpu")]
+use crate::gpu::texture::TextureTarget;
 use halfway_frame::error::label;
 use halfway_frame::report::FrameReport;
 use halfway_frame::why_empty::{EmptyReason, why_empty};
@@ -79,25 +81,16 @@ pub(crate) fn may_be_empty(report: Res<FrameReport>) -> bool {
     report.errors.is_empty() && (report.visible == 0 || report.lights == 0)
 }
 
-const NO_LINES: &str = "a window does not show lines and points (`Edges`, `Lines3d`, `Show`); pictures that are taken do \
-                        (`take_picture`)";
+#[cfg(feature = "wgpu")]
+const NO_LINES: &str = "an engine's texture does not show lines and points (`Edges`, `Lines3d`, `Show`); windows and \
+                        pictures that are taken do (`take_picture`)";
 
-const NO_KEEPING: &str = "in a window a camera with `Load::Keep` clears its part; in pictures that are taken it keeps what \
-                          is there (`take_picture`)";
-
-/// Logs once what a window does not show: lines and points, and pictures that cameras keep.
+/// Logs once that an engine's texture does not show lines and points.
+#[cfg(feature = "wgpu")]
 pub(crate) fn log_lines(world: &mut World) {
-    #[cfg(feature = "wgpu")]
-    let is_window = world.contains_resource::<CanvasTarget>() || world.contains_resource::<SurfaceTarget>();
-    #[cfg(not(feature = "wgpu"))]
-    let is_window = world.contains_resource::<CanvasTarget>();
-    if is_window && crate::has_lines(world) && world.resource_mut::<Logged>().is_new(NO_LINES) {
+    let is_texture = world.contains_resource::<TextureTarget>();
+    if is_texture && crate::has_lines(world) && world.resource_mut::<Logged>().is_new(NO_LINES) {
         log::warn!("{NO_LINES}");
-    }
-    let keeps = |viewport: &Viewport| viewport.load == Load::Keep;
-    let any_keeps = |world: &World| world.try_query::<&Viewport>().is_some_and(|mut all| all.iter(world).any(keeps));
-    if is_window && any_keeps(world) && world.resource_mut::<Logged>().is_new(NO_KEEPING) {
-        log::warn!("{NO_KEEPING}");
     }
 }
 

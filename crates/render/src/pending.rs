@@ -4,6 +4,7 @@ use crate::cpu::canvas::{Canvas, CanvasTarget};
 #[cfg(feature = "wgpu")]
 use crate::gpu::{attachments::Target, device::Gpu, read_back::ReadBack};
 use crate::picture::Picture;
+use crate::taken::Destination;
 use crate::views::Views;
 use bevy_ecs::prelude::{ResMut, Resource, World};
 use bevy_ecs::schedule::InternedScheduleLabel;
@@ -48,7 +49,7 @@ impl PendingPicture {
 
     fn of_newest_frame(world: &World) -> Result<Self, RenderError> {
         let Some(views) = world.get_resource::<Views>().filter(|views| !views.is_empty()) else {
-            return Self::of_camera(world);
+            return Self::of_camera(world, Destination::Taken);
         };
         #[cfg(feature = "wgpu")]
         if let (Some(gpu), Some(first)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) {
@@ -60,13 +61,16 @@ impl PendingPicture {
         Ok(Self::together(views.size(), parts.collect::<Result<_, _>>()?))
     }
 
-    /// Starts to copy the picture of the camera whose turn it is.
-    pub(crate) fn of_camera(world: &World) -> Result<Self, RenderError> {
+    /// Starts to copy the picture of the camera whose turn it is. One that the CPU draws for a window is for nothing else.
+    pub(crate) fn of_camera(world: &World, destination: Destination) -> Result<Self, RenderError> {
         #[cfg(feature = "wgpu")]
         if let (Some(gpu), Some(target)) = (world.get_resource::<Gpu>(), world.get_resource::<Target>()) {
             return Self::of_target(gpu, target);
         }
-        Self::of_canvas(canvas(world)?)
+        match destination {
+            Destination::Taken => Self::of_canvas(canvas(world)?),
+            Destination::Window => Self::of_canvas(world.get_resource().ok_or(RenderError::NoPicture)?),
+        }
     }
 
     #[cfg(feature = "wgpu")]

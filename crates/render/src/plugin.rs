@@ -3,6 +3,7 @@
 use crate::choice::AdapterChoice;
 use crate::cpu;
 use crate::cpu::device::Cpu;
+use crate::finished_window::{self, FinishedWindow};
 #[cfg(feature = "wgpu")]
 use crate::gpu::{self, device::Gpu};
 use crate::headless::{self, Headless};
@@ -56,9 +57,15 @@ impl Plugin for RenderPlugin {
                 self.schedule,
                 (
                     PictureAge::renew.in_set(RenderSet::Deliver),
+                    finished_window::ask.in_set(RenderSet::View).after(ReadCamera),
+                    finished_window::finish
+                        .in_set(RenderSet::Deliver)
+                        .after(views::draw_further)
+                        .run_if(finished_window::is_asked),
                     (
                         logged::log_errors,
                         logged::log_ineffective_opacity,
+                        #[cfg(feature = "wgpu")]
                         logged::log_lines,
                         logged::log_why_empty.run_if(logged::may_be_empty),
                     )
@@ -75,6 +82,7 @@ pub(crate) fn add_drawers(app: &mut App, schedule: InternedScheduleLabel) {
         .init_resource::<AdapterChoice>()
         .init_resource::<Headless>()
         .init_resource::<Views>()
+        .init_resource::<FinishedWindow>()
         .add_systems(
             schedule,
             (

@@ -81,30 +81,69 @@ fn frame_picture(world: &mut World) -> Result<Picture, RenderError> {
 /// The picture of the newest frame with its backgrounds, its lines and its legend, of all cameras that share it.
 fn finished(world: &mut World) -> Result<Picture, RenderError> {
     check_frame(world)?;
+    put_together(world, Destination::Taken, Err)
+}
+
+/// What a picture is finished for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Destination {
+    Taken,
+    /// A window, which is opaque.
+    Window,
+}
+
+/// The same whatever errors the frame has. `refused` gets those of backgrounds and lines, and says whether they end it.
+pub(crate) fn put_together(
+    world: &mut World,
+    destination: Destination,
+    mut refused: impl FnMut(RenderError) -> Result<(), RenderError>,
+) -> Result<Picture, RenderError> {
     let size = world.get_resource::<Views>().filter(|views| !views.is_empty()).map(Views::size);
+    let are_several = world.get_resource::<Views>().is_some_and(Views::are_several);
     let mut whole = None;
     views::for_each(world, |world, place| {
-        let mut picture = PendingPicture::of_camera(world)?.wait()?;
+        let mut picture = PendingPicture::of_camera(world, destination)?.wait()?;
         let Some(size) = size else {
-            finish(world, &mut picture, None)?;
+            finish(world, &mut picture, None, destination).or_else(&mut refused)?;
+            add_legend(world, &mut picture);
             whole = Some(picture);
             return Ok(());
         };
         let whole = whole.get_or_insert_with(|| picture.black(size));
         let kept = (place.load == Load::Keep).then(|| whole.part(place.corner, place.size));
-        finish(world, &mut picture, kept.as_ref())?;
+        finish(world, &mut picture, kept.as_ref(), destination).or_else(&mut refused)?;
+        if !are_several {
+            add_legend(world, &mut picture);
+        }
         whole.put(place.corner, &picture)
     })?;
     let mut picture = whole.ok_or(RenderError::NoPicture)?;
-    if let (Some(legend), Some(view)) = (world.get_resource::<Legend>(), world.get_resource::<View>()) {
-        draw_legend(&mut picture, legend, view.camera.unwrap_or_default().encoding);
+    if are_several {
+        add_legend(world, &mut picture);
     }
     Ok(picture)
 }
 
+/// Adds the world's legend, if it has one: to the part that a camera draws, or to the whole picture of several.
+fn add_legend(world: &World, picture: &mut Picture) {
+    if let (Some(legend), Some(view)) = (world.get_resource::<Legend>(), world.get_resource::<View>()) {
+        draw_legend(picture, legend, view.camera.unwrap_or_default().encoding);
+    }
+}
+
 /// Adds a camera's background, or what the part that it draws `kept`, and its lines to its picture.
-fn finish(world: &mut World, picture: &mut Picture, kept: Option<&Picture>) -> Result<(), RenderError> {
-    background::put_behind(world, picture, kept)?;
+fn finish(
+    world: &mut World,
+    picture: &mut Picture,
+    kept: Option<&Picture>,
+    destination: Destination,
+) -> Result<(), RenderError> {
+    if let Some(mut camera) = world.get_resource::<View>().and_then(|view| view.camera) {
+        if destination == Destination::Window {
+            camera.background_opacity = 1.0;
+        }
+        background::put_behind(world, picture, kept, &camera)?;
+    }
     if has_lines(world) {
         lines::draw_over_frame(world, picture)?;
     }

@@ -58,6 +58,10 @@ impl Views {
         self.each.is_empty()
     }
 
+    pub(crate) fn are_several(&self) -> bool {
+        self.each.len() > 1
+    }
+
     /// Drops what the cameras' frames have left, after a change of the adapter.
     pub(crate) fn forget(&mut self) {
         self.each.iter_mut().for_each(|view| view.left = Left::default());

@@ -1,5 +1,6 @@
 //! The attachments of a frame: textures, or the picture of a window's surface.
 
+use crate::finished_window::FinishedWindow;
 use crate::gpu::device::Gpu;
 use crate::gpu::format::{DEPTH_FORMAT, drawn_format, headless_format, is_float};
 use crate::gpu::passes::policy::PicturePasses;
@@ -152,6 +153,7 @@ pub(crate) fn prepare(
     surface: Option<ResMut<SurfaceTarget>>,
     texture: Option<Res<TextureTarget>>,
     (turn, sharing): (Res<CameraTurn>, SharingCameras),
+    finished: Res<FinishedWindow>,
     view: Res<View>,
     size: Res<PictureSize>,
     alphas: Query<(Entity, &AlphaMode), With<Mesh3d>>,
@@ -217,6 +219,12 @@ pub(crate) fn prepare(
                 return;
             }
         },
+        // It is read back before the window shows it.
+        (None, Some(mut surface)) if finished.is_asked => {
+            surface.pick_format(encodes);
+            let format = if encodes { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm };
+            (format, None, Delivery::Read)
+        }
         // Each camera draws into a picture of its own, and all are copied to the window.
         (None, Some(mut surface)) if turn.0.is_some() => {
             surface.pick_format(encodes);

@@ -2,6 +2,7 @@
 
 use crate::adapter::cpu_draws;
 use crate::cpu;
+use crate::finished_window;
 use crate::gpu::attachments::{self, Target};
 use crate::gpu::device::Gpu;
 use crate::gpu::draw::meshes::{self as mesh_buffers, MeshBuffers};
@@ -33,10 +34,16 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
         schedule,
         (
             attachments::measure.in_set(View).after(headless::measure).before(views::begin),
-            (shared_window::present.run_if(Views::are_there).run_if(resource_exists::<SurfaceTarget>), encode::present)
+            (
+                shared_window::present
+                    .run_if(Views::are_there.or_else(finished_window::is_asked))
+                    .run_if(resource_exists::<SurfaceTarget>),
+                encode::present,
+            )
                 .chain()
                 .in_set(Deliver)
                 .after(views::draw_further)
+                .after(finished_window::finish)
                 .run_if(gpu_draws),
             texture::refuse_on_cpu.in_set(View).after(cpu::draw::prepare).run_if(cpu_draws),
             over::refuse_on_cpu.in_set(Draw).run_if(cpu_draws).run_if(over::is_any),
@@ -48,7 +55,7 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
 pub(crate) fn add_stages(app: &mut App, schedule: InternedScheduleLabel) {
     add_backend::<Pipelines, _>(app, schedule, gpu_draws);
     let systems = (
-        attachments::prepare.in_set(View).after(ReadCamera).after(replaced::forget),
+        attachments::prepare.in_set(View).after(ReadCamera).after(replaced::forget).after(finished_window::ask),
         cache::begin.in_set(Illuminate).before(lit_patches::illuminate::<Pipelines>),
         (
             mesh_buffers::upload,

@@ -1,9 +1,10 @@
 //! A disc on the picture: which pixels it covers, and by how much.
 
 use crate::lines::segment::pixels;
-use bevy_math::{DVec2, UVec2};
+use bevy_math::DVec2;
 use halfway_lighting::equations::Transcendental as _;
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
 
 /// Above this radius the rim is as good as straight in a pixel.
 const LARGE: f64 = 1e4;
@@ -16,12 +17,12 @@ pub(super) struct Disc {
 }
 
 impl Disc {
-    /// Calls with each pixel of the picture that the disc reaches, and the share of the pixel that it covers, exactly.
-    pub(super) fn each(&self, size: UVec2, mut reach: impl FnMut(u32, u32, f64)) {
+    /// Calls with each pixel that the disc reaches in these rows of the picture, and the share of the pixel that it covers,
+    /// exactly.
+    pub(super) fn each(&self, width: u32, rows: &Range<u32>, mut reach: impl FnMut(u32, u32, f64)) {
         let Self { middle, radius } = *self;
-        let size = size.as_dvec2();
-        let columns = pixels(middle.x - radius, middle.x + radius, size.x);
-        for y in pixels(middle.y - radius, middle.y + radius, size.y) {
+        let columns = pixels(middle.x - radius, middle.x + radius, &(0..width));
+        for y in pixels(middle.y - radius, middle.y + radius, rows) {
             let [above, below] = [0.0, 1.0].map(|edge| f64::from(y) + edge - middle.y);
             // Of the pixels on the left: the areas in and above their row.
             let mut before = None;
@@ -74,11 +75,12 @@ impl Disc {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bevy_math::UVec2;
     use std::f64::consts::PI;
 
     fn covered(middle: [f64; 2], radius: f64) -> Vec<([u32; 2], f64)> {
         let mut found = Vec::new();
-        Disc { middle: middle.into(), radius }.each(UVec2::new(40, 30), |x, y, share| found.push(([x, y], share)));
+        Disc { middle: middle.into(), radius }.each(40, &(0..30), |x, y, share| found.push(([x, y], share)));
         found
     }
 

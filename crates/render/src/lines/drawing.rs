@@ -1,6 +1,6 @@
 //! Where lines are on the picture, and what of them is hidden.
 
-use crate::quantities::{SurfacePoint, Surfaces};
+use crate::quantities::{SeenPlane, Surfaces};
 use bevy_ecs::entity::Entity;
 use bevy_math::{DAffine3, DVec2, DVec3, IVec2, UVec2};
 use halfway_lighting::{Lens, Width};
@@ -33,44 +33,11 @@ pub(super) struct Placed {
 /// The picture that lines are drawn over.
 pub(super) struct Drawing<'a> {
     surfaces: &'a Surfaces,
-    /// The pixels asked for last, each at its number modulo [`KEPT`].
-    kept: RefCell<Vec<(u32, SeenPlane)>>,
-}
-
-/// The most pixels whose surfaces are kept: lines ask for the same ones again and again.
-const KEPT: usize = 1 << 14;
-
-/// The plane of the surface in a pixel, in eye space.
-#[derive(Clone, Copy, Debug, Default)]
-struct SeenPlane {
-    normal: DVec3,
-    point: DVec3,
-    depth: f64,
 }
 
 impl<'a> Drawing<'a> {
     pub(super) fn new(surfaces: &'a Surfaces) -> Self {
-        Self { surfaces, kept: RefCell::new(vec![(u32::MAX, SeenPlane::default()); KEPT]) }
-    }
-
-    /// The surface in a pixel; `None` where there is only background.
-    fn seen(&self, x: u32, y: u32) -> Option<SeenPlane> {
-        self.surfaces.number_at(x, y)?;
-        let pixel = y * self.size().x + x;
-        let place = pixel as usize % KEPT;
-        let (kept, plane) = self.kept.borrow()[place];
-        if kept == pixel {
-            return Some(plane);
-        }
-        let SurfacePoint { face_normal, position, depth, .. } = self.surfaces.at(x, y)?;
-        let normal = self.surfaces.in_eye_space(face_normal);
-        let plane = SeenPlane {
-            normal,
-            point: self.eye_from_world().transform_point3(position - self.surfaces.origin()),
-            depth,
-        };
-        self.kept.borrow_mut()[place] = (pixel, plane);
-        Some(plane)
+        Self { surfaces }
     }
 
     pub(super) fn lens(&self) -> &Lens<f64> {
@@ -131,6 +98,37 @@ impl<'a> Drawing<'a> {
     pub(super) fn placed_point(&self, eye: DVec3) -> Option<(DVec2, f64)> {
         self.placed([eye, eye]).map(|placed| (placed.ends[0], placed.nearness[0]))
     }
+}
+
+/// What one thread sees of the surfaces of a picture.
+pub(super) struct Sight<'a> {
+    pub(super) drawing: &'a Drawing<'a>,
+    /// The pixels asked for last, each at its number modulo [`KEPT`].
+    kept: RefCell<Vec<(u32, SeenPlane)>>,
+}
+
+/// The most pixels whose surfaces are kept: lines ask for the same ones again and again.
+const KEPT: usize = 1 << 14;
+
+impl<'a> Sight<'a> {
+    pub(super) fn new(drawing: &'a Drawing) -> Self {
+        Self { drawing, kept: RefCell::new(vec![(u32::MAX, SeenPlane::default()); KEPT]) }
+    }
+
+    /// The surface in a pixel; `None` where there is only background.
+    fn seen(&self, x: u32, y: u32) -> Option<SeenPlane> {
+        let surfaces = self.drawing.surfaces;
+        surfaces.number_at(x, y)?;
+        let pixel = y * surfaces.size().x + x;
+        let place = pixel as usize % KEPT;
+        let (kept, plane) = self.kept.borrow()[place];
+        if kept == pixel {
+            return Some(plane);
+        }
+        let plane = surfaces.plane_at(x, y)?;
+        self.kept.borrow_mut()[place] = (pixel, plane);
+        Some(plane)
+    }
 
     /// Whether a mark is seen in a pixel, around a point and as far as half its width in pixels. `sees` says whether that
     /// point is seen.
@@ -149,7 +147,7 @@ impl<'a> Drawing<'a> {
             return sees();
         }
         let Some(seen) = self.seen(x, y) else { return true };
-        let pixel = self.pixel_size(depth);
+        let pixel = self.drawing.pixel_size(depth);
         let is_slope = || depth - (0.25 + 0.5 * half) * pixel <= self.plane_depth(&seen, middle);
         depth - 0.25 * pixel <= seen.depth || is_slope() && sees()
     }
@@ -159,16 +157,17 @@ impl<'a> Drawing<'a> {
     /// It is seen where its pixel or one beside it shows a triangle that it belongs to, something that lies farther away,
     /// or nothing: at a silhouette the pixel itself may show either side. In its pixel, the plane of the surface counts.
     pub(super) fn sees(&self, at: DVec2, depth: f64, is_own: impl Fn((Entity, u32)) -> bool) -> bool {
-        let pixel = at.floor().as_ivec2().clamp(IVec2::ZERO, self.size().as_ivec2() - 1);
+        let size = self.drawing.size();
+        let pixel = at.floor().as_ivec2().clamp(IVec2::ZERO, size.as_ivec2() - 1);
         // Nearer by a quarter of a pixel, so that an edge is not hidden by its own surface.
-        let depth = depth - 0.25 * self.lens().pixel_size(depth, self.size().as_dvec2().to_array());
+        let depth = depth - 0.25 * self.drawing.pixel_size(depth);
         AROUND.into_iter().any(|step| {
             let [x, y] = (pixel + step).to_array();
             let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return false };
-            if x >= self.size().x || y >= self.size().y {
+            if x >= size.x || y >= size.y {
                 return false;
             }
-            let Some(seen) = self.surfaces.number_at(x, y) else { return true };
+            let Some(seen) = self.drawing.surfaces.number_at(x, y) else { return true };
             if is_own(seen) {
                 return true;
             }
@@ -179,8 +178,8 @@ impl<'a> Drawing<'a> {
 
     /// The depth of a surface's plane on the ray through a point of the picture, or of the surface if that lies farther.
     fn plane_depth(&self, seen: &SeenPlane, at: DVec2) -> f64 {
-        let middle = at / self.size().as_dvec2();
-        let ray = self.lens().ray([2.0 * middle.x - 1.0, 1.0 - 2.0 * middle.y]);
+        let middle = at / self.drawing.size().as_dvec2();
+        let ray = self.drawing.lens().ray([2.0 * middle.x - 1.0, 1.0 - 2.0 * middle.y]);
         let [origin, direction] = [ray.origin, ray.direction].map(DVec3::from);
         let depth = seen.normal.dot(seen.point - origin) / seen.normal.dot(direction);
         if depth.is_finite() { depth.max(seen.depth) } else { seen.depth }

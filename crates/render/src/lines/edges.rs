@@ -1,17 +1,19 @@
 //! Lines along the edges of meshes.
 
-use crate::lines::drawing::{Drawing, is_dash};
+use crate::lines::drawing::{Drawing, Placed, Sight, is_dash};
 use crate::lines::mix::lay_over;
 use crate::lines::segment::{Reached, Segment};
 use crate::picture::Picture;
 use bevy_ecs::prelude::*;
-use bevy_math::DVec3;
+use bevy_math::{DVec3, Vec3};
 use bevy_platform::collections::HashMap;
 use bevy_transform::components::GlobalTransform;
 use halfway_asset::{AssetId, Assets};
 use halfway_frame::error::{RenderError, label};
 use halfway_lighting::{Camera, Cameras, Edges, Encoding, HiddenEdges, Shown, WhichEdges};
 use halfway_mesh::{Mesh, Mesh3d, MeshEdge, SpawnOrder};
+use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Draws the edges of all these objects.
@@ -99,30 +101,62 @@ pub(super) fn edged_objects(world: &mut World) -> Result<Vec<EdgedObject>, Rende
 }
 
 /// An edge on the picture.
-struct Line<'a> {
-    object: &'a EdgedObject,
-    edge: &'a MeshEdge,
+#[derive(Clone, Copy)]
+struct Line {
+    triangles: [u32; 2],
     segment: Segment,
     /// Of its ends; see [`Lens::unfitted_nearness`].
     nearness: [f64; 2],
 }
 
+/// The most edges that are placed on the picture at a time.
+const MOST_LINES: usize = 1 << 16;
+
+/// The bands of rows that are drawn at once.
+const BANDS: u32 = 32;
+
 impl Drawing<'_> {
     fn add_edges(&self, object: &EdgedObject, coverage: &mut [f32]) {
         let world_from_model = crate::quantities::world_from_model(&object.transform);
         let eye_from_model = self.eye_from_world() * world_from_model;
-        let corners: Vec<DVec3> =
-            object.mesh.positions().iter().map(|p| eye_from_model.transform_point3(p.as_dvec3())).collect();
-        for edge in object.all.iter() {
-            if !self.is_drawn(object, edge, &corners) {
-                continue;
+        let at_eye = |p: &Vec3| eye_from_model.transform_point3(p.as_dvec3());
+        let corners: Vec<DVec3> = object.mesh.positions().par_iter().with_min_len(4096).map(at_eye).collect();
+        let size = self.size();
+        let height = size.y.div_ceil(BANDS);
+        for edges in object.all.chunks(MOST_LINES) {
+            let placed = edges.par_iter().with_min_len(1024).filter_map(|edge| self.line(object, edge, &corners));
+            let lines: Vec<Line> = placed.collect();
+            let mut of_bands = vec![Vec::new(); BANDS as usize];
+            for line in lines {
+                let Range { start, end } = line.segment.rows(size.y);
+                for band in start / height..end.div_ceil(height) {
+                    of_bands[band as usize].push(line);
+                }
             }
-            let Some(placed) = self.placed(edge.ends.map(|vertex| corners[vertex as usize])) else { continue };
-            let (ends, nearness) = (placed.ends, placed.nearness);
-            let widths = nearness.map(|nearness| self.in_pixels(object.edges.width, nearness));
-            let segment = Segment { from: ends[0], to: ends[1], widths };
-            self.draw_edge(&Line { object, edge, segment, nearness }, coverage);
+            let in_bands = coverage.par_chunks_mut((height * size.x) as usize).zip(&of_bands).enumerate();
+            in_bands
+                .with_min_len(BANDS as usize / (4 * rayon::current_num_threads()).min(BANDS as usize))
+                .for_each_init(
+                    || Sight::new(self),
+                    |sight, (band, (coverage, lines))| {
+                        let first = band as u32 * height;
+                        for line in lines {
+                            sight.draw_edge(object, line, first, coverage);
+                        }
+                    },
+                );
         }
+    }
+
+    /// The edge where it is on the picture, if it is one that is drawn.
+    fn line(&self, object: &EdgedObject, edge: &MeshEdge, corners: &[DVec3]) -> Option<Line> {
+        if !self.is_drawn(object, edge, corners) {
+            return None;
+        }
+        let Placed { ends, nearness, .. } = self.placed(edge.ends.map(|vertex| corners[vertex as usize]))?;
+        let widths = nearness.map(|nearness| self.in_pixels(object.edges.width, nearness));
+        let segment = Segment { from: ends[0], to: ends[1], widths };
+        Some(Line { triangles: edge.triangles, segment, nearness })
     }
 
     fn is_drawn(&self, object: &EdgedObject, edge: &MeshEdge, corners: &[DVec3]) -> bool {
@@ -145,17 +179,21 @@ impl Drawing<'_> {
         // A triangle that is seen from its side faces nobody.
         (first < 0.0) != (second < 0.0)
     }
+}
 
-    /// Adds a line to the coverage of pixels. Where lines of one colour meet, the larger coverage counts.
-    fn draw_edge(&self, line: &Line, coverage: &mut [f32]) {
+impl Sight<'_> {
+    /// Adds a line to the coverage of the rows from `first` on. Where lines of one colour meet, the larger coverage counts.
+    fn draw_edge(&self, object: &EdgedObject, line: &Line, first: u32, coverage: &mut [f32]) {
+        let width = self.drawing.size().x;
+        let rows = first..first + coverage.len() as u32 / width;
         let length = (line.segment.to - line.segment.from).length();
-        line.segment.each(self.size(), |Reached { x, y, coverage: share, along }| {
-            let there = &mut coverage[(y * self.size().x + x) as usize];
+        line.segment.each(width, &rows, |Reached { x, y, coverage: share, along }| {
+            let there = &mut coverage[((y - first) * width + x) as usize];
             if share as f32 <= *there {
                 return;
             }
-            let dashes = line.object.edges.hidden == HiddenEdges::Dash;
-            let shows = self.shows_edge(line, along) || dashes && is_dash(along * length);
+            let dashes = object.edges.hidden == HiddenEdges::Dash;
+            let shows = self.shows_edge(object, line, along) || dashes && is_dash(along * length);
             if shows {
                 *there = share as f32;
             }
@@ -163,10 +201,10 @@ impl Drawing<'_> {
     }
 
     /// Whether a point of the line is seen: where one of the edge's own triangles is, too.
-    fn shows_edge(&self, line: &Line, along: f64) -> bool {
+    fn shows_edge(&self, object: &EdgedObject, line: &Line, along: f64) -> bool {
         let at = line.segment.from.lerp(line.segment.to, along);
         let nearness = line.nearness[0] + along * (line.nearness[1] - line.nearness[0]);
-        let is_own = |(entity, triangle)| entity == line.object.entity && line.edge.triangles.contains(&triangle);
-        self.sees(at, self.lens().depth_at(nearness), is_own)
+        let is_own = |(entity, triangle)| entity == object.entity && line.triangles.contains(&triangle);
+        self.sees(at, self.drawing.lens().depth_at(nearness), is_own)
     }
 }

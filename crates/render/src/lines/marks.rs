@@ -1,12 +1,13 @@
 //! Lines and discs, each with its colours, laid over a picture in the order of their depth.
 
 use crate::lines::disc::Disc;
-use crate::lines::drawing::{Drawing, Placed, is_dash};
+use crate::lines::drawing::{Drawing, Placed, Sight, is_dash};
 use crate::lines::mix::lay_over;
-use crate::lines::segment::{Reached, Segment};
+use crate::lines::segment::{Reached, Segment, pixels};
 use crate::picture::Picture;
 use bevy_math::{DVec2, UVec2, Vec3, Vec4};
 use halfway_lighting::{Encoding, HiddenEdges};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// A line or a disc on the picture.
@@ -76,15 +77,12 @@ impl Mark {
 
     /// The rows that it may reach.
     fn rows(&self, size: UVec2) -> Range<u32> {
-        let [above, below] = match self.shape {
-            Shape::Line { segment: Segment { from, to, widths }, .. } => {
-                let margin = 0.5 * widths[0].max(widths[1]) + 2.0;
-                [from.y.min(to.y) - margin, from.y.max(to.y) + margin]
+        match self.shape {
+            Shape::Line { segment, .. } => segment.rows(size.y),
+            Shape::Disc { disc: Disc { middle, radius }, .. } => {
+                pixels(middle.y - radius - 1.0, middle.y + radius + 1.0, &(0..size.y))
             }
-            Shape::Disc { disc: Disc { middle, radius }, .. } => [middle.y - radius - 1.0, middle.y + radius + 1.0],
-        };
-        let row = |y: f64| y.clamp(0.0, size.y.into()) as u32;
-        row(above)..row(below.ceil())
+        }
     }
 
     /// About how many pixels it reaches.
@@ -98,23 +96,24 @@ impl Mark {
         }
     }
 
-    /// The share of each pixel in which it is seen.
-    fn each(&self, drawing: &Drawing, mut reach: impl FnMut(u32, u32, Fragment)) {
+    /// The share of each pixel of these rows in which it is seen.
+    fn each(&self, sight: &Sight, rows: &Range<u32>, mut reach: impl FnMut(u32, u32, Fragment)) {
+        let (drawing, width) = (sight.drawing, sight.drawing.size().x);
         match self.shape {
             Shape::Line { segment, nearness, inks, before } => {
                 let length = (segment.to - segment.from).length();
                 let is_parallel = drawing.lens().is_parallel;
-                segment.each(drawing.size(), |Reached { x, y, coverage, along }| {
+                segment.each(width, rows, |Reached { x, y, coverage, along }| {
                     let near = nearness[0] + along * (nearness[1] - nearness[0]);
                     let depth = drawing.lens().depth_at(near);
                     let at = segment.from.lerp(segment.to, along);
                     let half = 0.5 * (segment.widths[0] + along * (segment.widths[1] - segment.widths[0]));
-                    let sees = || drawing.sees(at, depth, |_| false);
+                    let sees = || sight.sees(at, depth, |_| false);
                     let shows = match self.hidden {
                         Hidden::Show => true,
-                        Hidden::Omit => drawing.shows(sees, (at, half), depth, [x, y]),
+                        Hidden::Omit => sight.shows(sees, (at, half), depth, [x, y]),
                         Hidden::Dash => {
-                            is_dash(before + along * length) || drawing.shows(sees, (at, half), depth, [x, y])
+                            is_dash(before + along * length) || sight.shows(sees, (at, half), depth, [x, y])
                         }
                     };
                     if shows {
@@ -127,9 +126,9 @@ impl Mark {
             }
             Shape::Disc { disc, depth, ink } => {
                 let mut seen = None;
-                disc.each(drawing.size(), |x, y, coverage| {
-                    let sees = || *seen.get_or_insert_with(|| drawing.sees(disc.middle, depth, |_| false));
-                    if drawing.shows(sees, (disc.middle, disc.radius), depth, [x, y]) {
+                disc.each(width, rows, |x, y, coverage| {
+                    let sees = || *seen.get_or_insert_with(|| sight.sees(disc.middle, depth, |_| false));
+                    if sight.shows(sees, (disc.middle, disc.radius), depth, [x, y]) {
                         reach(x, y, Fragment::new(ink, coverage, depth, true));
                     }
                 });
@@ -162,8 +161,11 @@ impl Fragment {
     }
 }
 
-/// The most fragments that are kept at a time, but for those of one row.
-const MOST_FRAGMENTS: u64 = 1 << 22;
+/// The most fragments that a thread keeps at a time, but for those of one row.
+const MOST_FRAGMENTS: u64 = 1 << 20;
+
+/// The least bands of rows that are drawn at once.
+const LEAST_BANDS: u64 = 32;
 
 /// Lays marks over a picture. Nearer ones cover farther ones; of equally near ones the later one covers the earlier.
 pub(super) fn draw(picture: &mut Picture, drawing: &Drawing, marks: &[Mark], encoding: Encoding) {
@@ -172,29 +174,33 @@ pub(super) fn draw(picture: &mut Picture, drawing: &Drawing, marks: &[Mark], enc
     }
     let size = drawing.size();
     let fragments: u64 = marks.iter().map(|mark| mark.pixels(size)).sum();
-    let bands = (fragments / MOST_FRAGMENTS + 1).min(size.y.into()) as u32;
-    let rows = size.y.div_ceil(bands);
-    let mut inks = vec![(Vec3::ZERO, 0.0_f32); size.element_product() as usize];
-    let mut reached = Vec::new();
-    for (band, inks) in inks.chunks_mut((rows * size.x) as usize).enumerate() {
-        let first = band as u32 * rows;
-        reached.clear();
-        for mark in marks {
-            let Range { start, end } = mark.rows(size);
-            if start < first + rows && end > first {
-                mark.each(drawing, |x, y, fragment| {
-                    if (first..first + rows).contains(&y) {
-                        reached.push(((y - first) * size.x + x, fragment));
-                    }
-                });
-            }
-        }
-        // Stable: of equally near ones the later one stays the later.
-        reached.sort_by(|(a, one), (b, other)| a.cmp(b).then(other.depth.total_cmp(&one.depth)));
-        for (pixel, fragment) in &reached {
-            let ink = &mut inks[*pixel as usize];
-            *ink = fragment.over(*ink);
+    let bands = (fragments / MOST_FRAGMENTS + LEAST_BANDS).min(size.y.into()) as u32;
+    let height = size.y.div_ceil(bands);
+    let mut of_bands = vec![Vec::new(); bands as usize];
+    for mark in marks {
+        let Range { start, end } = mark.rows(size);
+        for band in start / height..end.div_ceil(height) {
+            of_bands[band as usize].push(*mark);
         }
     }
+    let mut inks = vec![(Vec3::ZERO, 0.0_f32); size.element_product() as usize];
+    let in_bands = inks.par_chunks_mut((height * size.x) as usize).zip(&of_bands).enumerate();
+    in_bands.with_min_len(bands.div_ceil(4 * rayon::current_num_threads() as u32) as usize).for_each_init(
+        || (Sight::new(drawing), Vec::new()),
+        |(sight, reached), (band, (inks, marks))| {
+            let first = band as u32 * height;
+            let rows = first..first + inks.len() as u32 / size.x;
+            reached.clear();
+            for mark in marks {
+                mark.each(sight, &rows, |x, y, fragment| reached.push(((y - first) * size.x + x, fragment)));
+            }
+            // Stable: of equally near ones the later one stays the later.
+            reached.sort_by(|(a, one), (b, other)| a.cmp(b).then(other.depth.total_cmp(&one.depth)));
+            for (pixel, fragment) in &*reached {
+                let ink = &mut inks[*pixel as usize];
+                *ink = fragment.over(*ink);
+            }
+        },
+    );
     lay_over(picture, encoding, inks.into_iter().map(|(color, share)| (color.to_array(), share)));
 }

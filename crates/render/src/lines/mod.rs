@@ -42,7 +42,7 @@ pub fn draw_lines(world: &mut World, picture: &mut Picture, surfaces: &Surfaces)
     let show = world.get::<Show>(camera).copied().unwrap_or_default();
     edges::draw(picture, &drawing, &edges::edged_objects(world)?, encoding);
     // Later marks cover earlier ones that are equally near.
-    let explained = explained::marks(world, &drawing, &show)?;
+    let explained = explained::marks(world, &drawing, show)?;
     let mut marks = explained.on_ground;
     marks.extend(strokes::marks(world, &drawing)?);
     marks.extend(explained.among);

@@ -1,6 +1,7 @@
 //! A straight line on the picture: which pixels it covers, and by how much.
 
-use bevy_math::{DVec2, UVec2, Vec2Swizzles as _};
+use bevy_math::{DVec2, Vec2Swizzles as _};
+use std::ops::Range;
 
 /// A line from one point of the picture to another, in pixels from the top left corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,8 +25,14 @@ pub(super) struct Reached {
 }
 
 impl Segment {
-    /// Calls with each pixel of the picture that the line reaches. Its ends are round.
-    pub(super) fn each(&self, size: UVec2, mut reach: impl FnMut(Reached)) {
+    /// The rows of a picture of this height that it may reach.
+    pub(super) fn rows(&self, height: u32) -> Range<u32> {
+        let margin = 0.5 * self.widths[0].max(self.widths[1]) + 2.0;
+        pixels(self.from.y.min(self.to.y) - margin, self.from.y.max(self.to.y) + margin, &(0..height))
+    }
+
+    /// Calls with each pixel that the line reaches in these rows of the picture. Its ends are round.
+    pub(super) fn each(&self, width: u32, rows: &Range<u32>, mut reach: impl FnMut(Reached)) {
         let [first, last] = self.widths;
         // Beside the line by half its width and half a pixel there is nothing.
         let margin = 0.5 * first.max(last) + 1.0;
@@ -36,16 +43,25 @@ impl Segment {
         let [a, b] = [turned(self.from), turned(self.to)];
         let [a, b] = if a.x <= b.x { [a, b] } else { [b, a] };
         let slope = if b.x > a.x { (b.y - a.y) / (b.x - a.x) } else { 0.0 };
-        let size = size.as_dvec2();
-        let size = turned(size);
+        let all = 0..width;
+        let [in_columns, in_rows] = if steep { [rows, &all] } else { [&all, rows] };
         let across = margin * slope.hypot(1.0) + 1.0;
-        let columns = pixels(a.x - margin, b.x + margin, size.x);
-        for column in columns {
+        let length2 = way.length_squared();
+        let per_length2 = if length2 > 0.0 { 1.0 / length2 } else { 0.0 };
+        // Farther away than this from the middle of a pixel, nothing of it is covered.
+        let reach2 = (0.5 * first.max(last) + 0.5).powi(2);
+        for column in pixels(a.x - margin, b.x + margin, in_columns) {
             let x = (f64::from(column) + 0.5).clamp(a.x, b.x);
             let y = a.y + slope * (x - a.x);
-            for row in pixels(y - across, y + across, size.y) {
+            for row in pixels(y - across, y + across, in_rows) {
                 let [x, y] = if steep { [row, column] } else { [column, row] };
-                let (distance, along) = self.nearest(DVec2::new(f64::from(x), f64::from(y)) + 0.5);
+                let from_start = DVec2::new(f64::from(x), f64::from(y)) + 0.5 - self.from;
+                let along = (from_start.dot(way) * per_length2).clamp(0.0, 1.0);
+                let distance2 = (along * way - from_start).length_squared();
+                if distance2 >= reach2 {
+                    continue;
+                }
+                let distance = distance2.sqrt();
                 let half = 0.5 * (first + along * (last - first));
                 let coverage = (distance + 0.5).min(half) - (distance - 0.5).max(-half);
                 if coverage > 0.0 {
@@ -54,25 +70,18 @@ impl Segment {
             }
         }
     }
-
-    /// The distance of a point, and where on the line its nearest point is.
-    fn nearest(&self, point: DVec2) -> (f64, f64) {
-        let way = self.to - self.from;
-        let length2 = way.length_squared();
-        let along = if length2 > 0.0 { ((point - self.from).dot(way) / length2).clamp(0.0, 1.0) } else { 0.0 };
-        ((self.from + along * way - point).length(), along)
-    }
 }
 
-/// The pixels of a row of `count` that an interval meets.
-pub(super) fn pixels(from: f64, to: f64, count: f64) -> std::ops::Range<u32> {
-    let [from, to] = [from.floor(), to.ceil()].map(|end| end.clamp(0.0, count) as u32);
+/// Those of some pixels in a row that an interval meets.
+pub(super) fn pixels(from: f64, to: f64, of: &Range<u32>) -> Range<u32> {
+    let [from, to] = [from.floor(), to.ceil()].map(|end| end.clamp(of.start.into(), of.end.into()) as u32);
     from..to.max(from)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bevy_math::UVec2;
     use std::collections::HashMap;
 
     const SIZE: UVec2 = UVec2::new(40, 30);
@@ -80,7 +89,7 @@ mod tests {
     fn covered(from: [f64; 2], to: [f64; 2], width: f64) -> HashMap<[u32; 2], f64> {
         let mut found = HashMap::new();
         let line = Segment { from: from.into(), to: to.into(), widths: [width; 2] };
-        line.each(SIZE, |Reached { x, y, coverage, .. }| {
+        line.each(SIZE.x, &(0..SIZE.y), |Reached { x, y, coverage, .. }| {
             assert!(found.insert([x, y], coverage).is_none(), "({x}, {y}) twice");
         });
         found

@@ -8,8 +8,8 @@ use bevy_ecs::prelude::World;
 use halfway_frame::error::RenderError;
 
 pub use quantity::{Quantity, QuantityImage, QuantityValues, take_quantities};
+pub(crate) use surfaces::{SeenPlane, no_camera, world_from_model};
 pub use surfaces::{SurfacePoint, Surfaces, pick};
-pub(crate) use surfaces::{no_camera, world_from_model};
 
 /// How much of the background is seen in each pixel of the newest frame, row by row from the top.
 ///

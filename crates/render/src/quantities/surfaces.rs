@@ -71,6 +71,29 @@ struct SeenObject {
     normal_matrix: DMat3,
 }
 
+/// The triangle that a ray meets.
+struct Met<'a> {
+    seen: &'a SeenObject,
+    /// Its number, and the numbers of its vertices.
+    triangle: u32,
+    corners: [usize; 3],
+    /// Its corners in eye space.
+    ends: [DVec3; 3],
+    weights: DVec3,
+    /// Of the ray.
+    direction: DVec3,
+}
+
+/// The plane of the surface in a pixel, in eye space.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SeenPlane {
+    /// Of any length, to either side.
+    pub(crate) normal: DVec3,
+    /// Where the middle of the pixel shows it.
+    pub(crate) point: DVec3,
+    pub(crate) depth: f64,
+}
+
 /// A point of a surface that a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
@@ -167,17 +190,7 @@ impl Surfaces {
     /// The surface in a pixel, whose column and row are counted from the top left; `None` where there is only background,
     /// and outside of the picture.
     pub fn at(&self, x: u32, y: u32) -> Option<SurfacePoint> {
-        if x >= self.size.x || y >= self.size.y {
-            return None;
-        }
-        let [object, triangle] = self.numbers[(y * self.size.x + x) as usize]?;
-        let middle = (UVec2::new(x, y).as_dvec2() + 0.5) / self.size.as_dvec2();
-        let ray = self.lens.ray([2.0 * middle.x - 1.0, 1.0 - 2.0 * middle.y]);
-        let [origin, direction] = [ray.origin, ray.direction].map(DVec3::from);
-        let seen = self.objects.get(object as usize)?;
-        let corners = seen.mesh.indices().as_chunks().0.get(triangle as usize)?.map(|vertex| vertex as usize);
-        let ends = corners.map(|vertex| seen.eye_from_model.transform_point3(seen.mesh.positions()[vertex].as_dvec3()));
-        let weights = weights(ends.map(|end| end - origin), direction);
+        let Met { seen, triangle, corners, ends, weights, direction } = self.met(x, y)?;
         let eye = mixed(weights, ends);
         let face = face_normal(corners.map(|vertex| seen.mesh.positions()[vertex].as_dvec3()));
         let face = (seen.normal_matrix * face).normalize_or_zero();
@@ -204,6 +217,29 @@ impl Surfaces {
             face_normal: world_from_eye.transform_vector3(side * face),
             uv,
         })
+    }
+
+    /// The triangle that the ray through the middle of a pixel meets.
+    fn met(&self, x: u32, y: u32) -> Option<Met<'_>> {
+        if x >= self.size.x || y >= self.size.y {
+            return None;
+        }
+        let [object, triangle] = self.numbers[(y * self.size.x + x) as usize]?;
+        let middle = (UVec2::new(x, y).as_dvec2() + 0.5) / self.size.as_dvec2();
+        let ray = self.lens.ray([2.0 * middle.x - 1.0, 1.0 - 2.0 * middle.y]);
+        let [origin, direction] = [ray.origin, ray.direction].map(DVec3::from);
+        let seen = self.objects.get(object as usize)?;
+        let corners = seen.mesh.indices().as_chunks().0.get(triangle as usize)?.map(|vertex| vertex as usize);
+        let ends = corners.map(|vertex| seen.eye_from_model.transform_point3(seen.mesh.positions()[vertex].as_dvec3()));
+        let weights = weights(ends.map(|end| end - origin), direction);
+        Some(Met { seen, triangle, corners, ends, weights, direction })
+    }
+
+    /// The plane of the surface in a pixel; `None` as for [`at`](Self::at).
+    pub(crate) fn plane_at(&self, x: u32, y: u32) -> Option<SeenPlane> {
+        let Met { ends, weights, .. } = self.met(x, y)?;
+        let (point, [a, b, c]) = (mixed(weights, ends), ends);
+        Some(SeenPlane { normal: (b - a).cross(c - a), point, depth: -point.z })
     }
 
     /// All pixels, row by row from the top.
