@@ -56,7 +56,13 @@ impl Live {
         let transform = world.get::<Transform>(self.spawned.camera)?;
         let distance = world.get::<OrbitCamera>(self.spawned.camera).map_or(1.0, |orbit| orbit.orbit.distance);
         let origin = world.get::<Origin>(self.spawned.camera).map_or(self.spawned.origin, |origin| origin.0);
-        Some(CameraEntry::of(camera, transform, distance, origin))
+        let mut entry = CameraEntry::of(camera, transform, distance, origin);
+        let up = world.get::<OrbitCamera>(self.spawned.camera).map_or(Vec3::Y, |orbit| orbit.orbit.up);
+        // A picture that was turned upright is one that the orbit keeps so.
+        if up.dot(transform.rotation * Vec3::X).abs() < 1e-4 * up.length() {
+            entry.up = up.to_array();
+        }
+        Some(entry)
     }
 
     /// The scene, seen as it is now.

@@ -11,7 +11,7 @@ use egui::{TextureHandle, TextureOptions, pos2, vec2};
 use halfway::lighting::{CameraTurn, Choices, Film, Part, Projection, Viewport};
 use halfway::prelude::*;
 use halfway::reference::{Oracle, OracleError};
-use halfway::render::Canvas;
+use halfway::render::WindowPicture;
 
 use crate::projected::pixels_of;
 
@@ -89,6 +89,7 @@ impl Split {
 
     /// Takes what it has put into the world out of it.
     pub(crate) fn end(self, world: &mut World) {
+        world.remove_resource::<WindowPicture>();
         if let Some(camera) = self.camera
             && let Ok(camera) = world.get_entity_mut(camera)
         {
@@ -185,10 +186,6 @@ impl Split {
         (main, revision): (Entity, u64),
         world: &mut World,
     ) -> Result<egui::TextureId, String> {
-        let has_canvas = world.get_resource::<Canvas>().is_some_and(|canvas| canvas.bytes().is_some());
-        if !has_canvas && matches!(self.way, Way::Difference(_)) {
-            return Err("a window on the CPU shows it: --adapter cpu".into());
-        }
         let Part::Pixels([left, top, width, height]) = pixels_of(window, ctx.pixels_per_point()).part else {
             return Err("there is no picture".into());
         };
@@ -201,6 +198,7 @@ impl Split {
             // A camera that moves would only begin pictures.
             let is_moving = self.oracle.asked.replace(key).is_some() && self.oracle.job.is_some();
             (self.oracle.job, self.oracle.bytes, self.oracle.shown) = (None, None, None);
+            world.remove_resource::<WindowPicture>();
             if is_moving {
                 self.oracle.asked = None;
             }
@@ -210,11 +208,17 @@ impl Split {
         self.oracle.draw((main, size), encoding, world)?;
         let Some(bytes) = &self.oracle.bytes else { return Err("drawing …".into()) };
         if self.oracle.shown.as_ref().is_none_or(|(way, _)| *way != self.way) {
-            let pixels = match (self.way, world.get_resource::<Canvas>().and_then(Canvas::bytes)) {
-                (Way::Difference(times), Some((of_window, actual))) => {
-                    differences(&cut_out(actual, of_window.x, [left, top, width, height]), bytes, times)
-                }
-                _ => bytes.clone(),
+            let pixels = if let Way::Difference(times) = self.way {
+                let kept = world.remove_resource::<WindowPicture>().and_then(|kept| kept.0);
+                let Some(actual) = kept else {
+                    // The next frame keeps it.
+                    world.init_resource::<WindowPicture>();
+                    ctx.request_repaint();
+                    return Err("drawing …".into());
+                };
+                differences(&cut_out(&actual, actual.width(), [left, top, width, height]), bytes, times)
+            } else {
+                bytes.clone()
             };
             let image = ColorImage::from_rgb([size.x as usize, size.y as usize], &pixels);
             self.oracle.shown = Some((self.way, ctx.load_texture("reference", image, TextureOptions::NEAREST)));

@@ -195,6 +195,19 @@ impl SceneViewer {
                 scene.tolerance = Some(next).filter(|tolerance| *tolerance != Tolerance::EXACT);
                 return true;
             }
+            Command::Edges => {
+                scene.edges = if scene.edges.is_some() { None } else { Some(look::thin()) };
+                return true;
+            }
+            Command::Wireframe => {
+                let is_on = scene.edges.as_ref().is_some_and(|edges| !edges.surface);
+                scene.edges = Some(look::wireframe(scene.background)).filter(|_| !is_on);
+                return true;
+            }
+            Command::Normals => {
+                scene.show.normals ^= true;
+                return true;
+            }
             Command::AddLight => {
                 self.selected = Selected::Light(live.light_entries(scene, world).len());
                 return panels::add_light(scene, LightKind::Point, live, world);

@@ -80,16 +80,16 @@ pub(crate) fn choice<T: Choices>(ui: &mut Ui, name: &str, hint: &str, value: &mu
     })
 }
 
-/// One of the values that have names, or that of the scene.
-pub(crate) fn own_choice<T: Choices>(ui: &mut Ui, name: &str, hint: &str, value: &mut Option<T>) -> bool {
+/// One of the values that have names, or none, which has a name too.
+pub(crate) fn own_choice<T: Choices>(ui: &mut Ui, name: &str, hint: &str, value: &mut Option<T>, none: &str) -> bool {
     line(ui, name, hint, |ui| {
         let mut changed = false;
         let shown = match value {
-            None => "the scene's",
+            None => none,
             Some(value) => value.choice().map_or("other", |choice| choice.name),
         };
         ComboBox::from_id_salt(name).selected_text(shown).show_ui(ui, |ui| {
-            changed |= ui.selectable_value(value, None, "the scene's").changed();
+            changed |= ui.selectable_value(value, None, none).changed();
             for choice in T::CHOICES {
                 let response = ui.selectable_value(value, Some(choice.value), choice.name);
                 changed |= response.on_hover_text(choice.meaning).changed();

@@ -2,12 +2,12 @@
 
 use bevy_ecs::prelude::*;
 use egui::{Slider, Ui};
-use halfway::lighting::{Choices, Projection, View};
+use halfway::lighting::{Choices, HiddenEdges, Projection, Upright, View, WhichEdges, Width};
 use halfway::prelude::*;
-use halfway::scene::SceneFile;
+use halfway::scene::{EdgesEntry, SceneFile};
 use halfway::window::OrbitCamera;
 
-use super::fields::{channels_field, check, choice, one_of, slider};
+use super::fields::{channels_field, check, choice, one_of, own_choice, slider};
 
 pub(crate) fn scene(ui: &mut Ui, scene: &mut SceneFile) -> bool {
     ui.heading("Scene");
@@ -28,7 +28,60 @@ pub(crate) fn scene(ui: &mut Ui, scene: &mut SceneFile) -> bool {
     ui.separator();
     changed |= channels_field(ui, "ambient Ga", "The light from everywhere", &mut scene.ambient);
     changed |= channels_field(ui, "background", "Where nothing is drawn", &mut scene.background);
+    ui.separator();
+    changed |= edges(ui, &mut scene.edges);
+    ui.horizontal_wrapped(|ui| {
+        for (name, hint) in SHOWN {
+            if let Some(shown) = scene.show.named(name) {
+                changed |= check(ui, &name.replace('_', " "), hint, shown);
+            }
+        }
+    });
     changed
+}
+
+/// What can be shown of a scene, by the names that files have, with a line for each.
+const SHOWN: [(&str, &str); 5] = [
+    ("axes", "The axes of the world: x red, y green, z blue"),
+    ("normals", "The normals of vertices"),
+    ("face_normals", "The normals of triangles"),
+    ("lights", "Where lights are, and where they shine"),
+    ("grid", "A grid on the ground"),
+];
+
+/// Lines along the edges of all objects that have none of their own.
+fn edges(ui: &mut Ui, edges: &mut Option<EdgesEntry>) -> bool {
+    let mut which = edges.as_ref().map(|edges| edges.which);
+    let mut changed = own_choice(ui, "edges", "Lines along the edges of objects", &mut which, "none");
+    if changed {
+        *edges = which.map(|which| EdgesEntry { which, ..edges.unwrap_or_else(thin) });
+    }
+    let Some(edges) = edges else { return changed };
+    if let Width::Pixels(width) = &mut edges.width {
+        changed |= slider(ui, "width", "The width of the lines, in pixels", width, 0.25..=8.0);
+    }
+    changed |= channels_field(ui, "colour", "The colour of the lines", &mut edges.color);
+    ui.horizontal(|ui| {
+        let mut dashes = edges.hidden == HiddenEdges::Dash;
+        if check(ui, "hidden edges", "Whether edges behind surfaces are dashed", &mut dashes) {
+            edges.hidden = if dashes { HiddenEdges::Dash } else { HiddenEdges::Omit };
+            changed = true;
+        }
+        changed |= check(ui, "surfaces", "Without them the lines are a wireframe", &mut edges.surface);
+    });
+    changed
+}
+
+/// Lines of a pixel.
+pub(crate) fn thin() -> EdgesEntry {
+    EdgesEntry { width: Width::Pixels(1.0), ..EdgesEntry::default() }
+}
+
+/// A wireframe that stands out from this background.
+pub(crate) fn wireframe(background: [f32; 3]) -> EdgesEntry {
+    let is_dark = background.iter().all(|channel| *channel < 0.2);
+    let color = if is_dark { [0.7; 3] } else { [0.0; 3] };
+    EdgesEntry { which: WhichEdges::All, surface: false, color, ..thin() }
 }
 
 fn intensity(ui: &mut Ui, value: &mut Intensity) -> bool {
@@ -53,6 +106,11 @@ pub(crate) fn camera(ui: &mut Ui, camera: Entity, world: &mut World) {
             }
         }
     });
+    if let Some(mut up) = world.get::<OrbitCamera>(camera).map(|orbit| orbit.orbit.up)
+        && one_of(ui, "up", "The direction that is up in the picture", &mut up, &UP)
+    {
+        set_up(up, camera, world);
+    }
     let distance = world.get::<OrbitCamera>(camera).map_or(1.0, |orbit| orbit.orbit.distance);
     let Some(mut of_camera) = world.get_mut::<Camera>(camera) else { return };
     let mut is_orthographic = matches!(of_camera.projection, Projection::Orthographic { .. });
@@ -80,6 +138,18 @@ pub(crate) fn camera(ui: &mut Ui, camera: Entity, world: &mut World) {
         let (eye, target) = (orbit.orbit.eye(), orbit.orbit.target);
         ui.label(format!("at {:.3}, {:.3}, {:.3}", eye.x, eye.y, eye.z));
         ui.label(format!("toward {:.3}, {:.3}, {:.3}", target.x, target.y, target.z));
+    }
+}
+
+/// The directions that can be up.
+const UP: [(Vec3, &str); 6] =
+    [(Vec3::Y, "y"), (Vec3::Z, "z"), (Vec3::X, "x"), (Vec3::NEG_Y, "−y"), (Vec3::NEG_Z, "−z"), (Vec3::NEG_X, "−x")];
+
+/// Turns the camera to the same side of what stands this way.
+fn set_up(up: Vec3, camera: Entity, world: &mut World) {
+    if let Some(mut orbit) = world.get_mut::<OrbitCamera>(camera) {
+        orbit.orbit.up = up;
+        world.entity_mut(camera).insert(Upright(up));
     }
 }
 

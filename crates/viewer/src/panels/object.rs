@@ -18,8 +18,8 @@ pub(crate) fn show(ui: &mut Ui, object: &mut ObjectEntry) -> bool {
     } else {
         ui.label("It is placed by a matrix.");
     }
-    changed |= own_choice(ui, "shading", "How often this object is shaded", &mut object.shading);
-    changed |= own_choice(ui, "reflectance", "Its specular term", &mut object.reflectance);
+    changed |= own_choice(ui, "shading", "How often this object is shaded", &mut object.shading, "the scene's");
+    changed |= own_choice(ui, "reflectance", "Its specular term", &mut object.reflectance, "the scene's");
     ui.separator();
     if object.scalars.is_some() {
         ui.label("Its numbers are shown by colours.");

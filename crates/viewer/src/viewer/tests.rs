@@ -2,9 +2,9 @@
 
 use egui::accesskit::{Node, TreeUpdate};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Role, pos2, vec2};
-use halfway::lighting::Projection;
+use halfway::lighting::{Edges, Projection, Show, Upright, Width};
 use halfway::mesh::UvSphere;
-use halfway::scene::{LightEntry, LightsEntry, MaterialEntry, MeshEntry, ObjectEntry, SceneFile};
+use halfway::scene::{EdgesEntry, LightEntry, LightsEntry, MaterialEntry, MeshEntry, ObjectEntry, SceneFile};
 
 use super::*;
 
@@ -174,6 +174,10 @@ fn selections() -> Vec<(&'static str, SceneFile)> {
     two_sided.objects[0].back_material = Some(MaterialEntry::Values(Material::BRASS));
     vec![
         ("Scene", scene(Vec::new())),
+        (
+            "Scene",
+            SceneFile { edges: Some(EdgesEntry { width: Width::Pixels(4.0), ..look::thin() }), ..scene(Vec::new()) },
+        ),
         ("Camera", scene(Vec::new())),
         ("lamp", scene(vec![near])),
         ("lamp", scene(vec![soft])),
@@ -241,7 +245,7 @@ fn every_choice_can_be_made() {
             let Some(place) = hands.values(Role::ComboBox).get(number).copied() else { break };
             number += 1;
             let before: Vec<String> = hands.texts();
-            let first = hands.scene().clone();
+            let first = state(&hands);
             hands.click(place.center());
             // The one that is nearest: a long list shows only some.
             let offered = hands.texts().into_iter().filter(|text| !before.contains(text));
@@ -249,7 +253,7 @@ fn every_choice_can_be_made() {
             let near = offered.filter_map(|text| Some((away(&text)?, text))).min_by(|a, b| a.0.total_cmp(&b.0));
             let (_, other) = near.unwrap_or_else(|| panic!("{selection}: list {number} offers nothing else"));
             hands.choose(&other);
-            assert_ne!(hands.scene(), &first, "{selection}: list {number}, {other:?}");
+            assert_ne!(state(&hands), first, "{selection}: list {number}, {other:?}");
             assert!(hands.scene().validate().is_ok(), "{selection}: {other:?}");
             used += 1;
         }
@@ -306,6 +310,16 @@ fn keys_do_what_their_list_says() {
     assert_ne!(hands.scene().intensity, Intensity::Clamp);
     hands.key(Key::T, Modifiers::NONE);
     assert!(hands.scene().tolerance.is_some());
+    for key in [Key::E, Key::W, Key::N] {
+        let before = hands.scene().clone();
+        hands.key(key, Modifiers::NONE);
+        assert_ne!(hands.scene(), &before, "{key:?}");
+        let camera = hands.app.world().entity(hands.camera());
+        assert_eq!(
+            camera.contains::<Edges>() || camera.contains::<Show>(),
+            key != Key::E || hands.scene().edges.is_some()
+        );
+    }
     hands.key(Key::O, Modifiers::NONE);
     let projection = |hands: &Hands| hands.app.world().get::<Camera>(hands.camera()).unwrap().projection;
     assert!(matches!(projection(&hands), Projection::Orthographic { .. }));
@@ -433,6 +447,29 @@ fn a_pixel_is_explained() {
     hands.viewer.explained = None;
     hands.key(Key::X, Modifiers::NONE);
     assert_eq!(hands.viewer.explained, None, "the panels have no pixels");
+}
+
+#[test]
+fn a_camera_is_turned_upright_and_saved_so() {
+    let mut hands = Hands::new(scene(Vec::new()));
+    hands.choose("Camera");
+    let list = hands.values(Role::ComboBox)[0];
+    hands.click(list.center());
+    hands.choose("z");
+    let camera = hands.camera();
+    let world = hands.app.world();
+    let up = world.get::<OrbitCamera>(camera).unwrap().orbit.up;
+    assert_eq!((up, world.get::<Upright>(camera)), (Vec3::Z, Some(&Upright(Vec3::Z))));
+    // What the window's plugins do.
+    let transform = {
+        let orbit = world.get::<OrbitCamera>(camera).unwrap().orbit;
+        Transform::from_translation(orbit.eye()).with_rotation(orbit.rotation())
+    };
+    assert!(transform.rotation.mul_vec3(Vec3::Y).z > 0.9, "z is up in the picture");
+    hands.app.world_mut().entity_mut(camera).insert(transform);
+    let live = hands.viewer.live.as_ref().unwrap();
+    let entry = live.scene_to_save(&hands.viewer.document, hands.app.world()).camera.unwrap();
+    assert_eq!(Vec3::from(entry.up), Vec3::Z);
 }
 
 #[test]
