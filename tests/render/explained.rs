@@ -79,7 +79,7 @@ fn each_shows_its_own() {
 fn the_reference_shows_the_same() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);
     stage.set(&scene());
-    let show = Show { axes: true, normals: true, face_normals: true, lights: true, grid: true, ..Show::default() };
+    let show = Show { axes: true, normals: true, face_normals: true, lights: true, grid: true };
     let picture = drawn(&mut stage, show);
     let frame = FrameToDraw { number: 0, size: SIZE, pixels: Pixels::Float };
     let reference = ReferenceDrawing::default().picture(&mut stage.app, frame, &|_, _| ControlFlow::Continue(()));

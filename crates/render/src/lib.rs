@@ -9,6 +9,7 @@ mod adapter;
 mod background;
 mod choice;
 mod cpu;
+mod drawers;
 mod finished_window;
 #[cfg(feature = "wgpu")]
 mod gpu;
@@ -25,13 +26,13 @@ mod quantities;
 mod replaced;
 mod taken;
 mod views;
+mod window_picture;
 
 pub use adapter::Adapter;
 pub use background::{draw_background, draw_kept};
 pub use choice::AdapterChoice;
 pub use cpu::canvas::{Canvas, CanvasTarget};
 pub use cpu::device::Cpu;
-pub use finished_window::WindowPicture;
 #[cfg(feature = "wgpu")]
 pub use gpu::device::Gpu;
 #[cfg(feature = "wgpu")]
@@ -72,3 +73,4 @@ pub use taken::{render_picture, take_picture};
 /// The renderer's version of wgpu, which surfaces have to use.
 #[cfg(feature = "wgpu")]
 pub use wgpu;
+pub use window_picture::WindowPicture;

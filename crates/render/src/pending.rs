@@ -4,7 +4,6 @@ use crate::cpu::canvas::{Canvas, CanvasTarget};
 #[cfg(feature = "wgpu")]
 use crate::gpu::{attachments::Target, device::Gpu, read_back::ReadBack};
 use crate::picture::Picture;
-use crate::taken::Destination;
 use crate::views::Views;
 use bevy_ecs::prelude::{ResMut, Resource, World};
 use bevy_ecs::schedule::InternedScheduleLabel;
@@ -25,6 +24,14 @@ enum Pending {
     There(Option<Picture>),
     /// It is put together of the pictures of several cameras.
     Together { size: UVec2, parts: Vec<(UVec2, PendingPicture)>, arrived: Vec<Option<Picture>> },
+}
+
+/// What a picture is finished for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Destination {
+    Taken,
+    /// A window, which is opaque.
+    Window,
 }
 
 impl PendingPicture {

@@ -1,22 +1,20 @@
-//! The plugin and the stages of a frame.
+//! The plugin.
 
-use crate::choice::AdapterChoice;
-use crate::cpu;
-use crate::cpu::device::Cpu;
-use crate::finished_window::{self, FinishedWindow};
-#[cfg(feature = "wgpu")]
-use crate::gpu::{self, device::Gpu};
-use crate::headless::{self, Headless};
+use crate::drawers::add_drawers;
+use crate::finished_window;
 use crate::logged::{self, Logged};
 use crate::pending::{DrawnIn, PictureAge};
-use crate::replaced;
-use crate::views::{self, Views};
+use crate::views;
+use crate::window_picture::{self, Present};
 use bevy_app::{App, First, Plugin, PostUpdate};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
+#[cfg(doc)]
+use halfway_frame::FramePlugin;
+use halfway_frame::ReadCamera;
+#[cfg(doc)]
 use halfway_frame::report::FrameReport;
 use halfway_frame::sets::RenderSet;
-use halfway_frame::{FramePlugin, FurtherCamera, ReadCamera, add_further_camera};
 
 /// Draws every entity with a [`Mesh3d`](halfway_mesh::Mesh3d) through the world's [`Camera`](halfway_lighting::Camera), once a run of its
 /// schedule.
@@ -57,11 +55,12 @@ impl Plugin for RenderPlugin {
                 self.schedule,
                 (
                     PictureAge::renew.in_set(RenderSet::Deliver),
-                    finished_window::ask.in_set(RenderSet::View).after(ReadCamera),
+                    window_picture::ask.in_set(RenderSet::View).after(ReadCamera),
                     finished_window::finish
                         .in_set(RenderSet::Deliver)
                         .after(views::draw_further)
-                        .run_if(finished_window::is_asked),
+                        .before(Present)
+                        .run_if(window_picture::is_asked),
                     (
                         logged::log_errors,
                         logged::log_ineffective_opacity,
@@ -73,70 +72,5 @@ impl Plugin for RenderPlugin {
                         .after(RenderSet::Deliver),
                 ),
             );
-    }
-}
-
-/// Adds the stages of a frame, for both renderers.
-pub(crate) fn add_drawers(app: &mut App, schedule: InternedScheduleLabel) {
-    app.add_plugins(FramePlugin { schedule })
-        .init_resource::<AdapterChoice>()
-        .init_resource::<Headless>()
-        .init_resource::<Views>()
-        .init_resource::<FinishedWindow>()
-        .add_systems(
-            schedule,
-            (
-                headless::measure.in_set(RenderSet::View).before(views::begin),
-                views::begin.in_set(RenderSet::View).before(ReadCamera),
-                (make_further_camera, views::draw_further).chain().in_set(RenderSet::Deliver).run_if(Views::are_there),
-                (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
-            ),
-        );
-    cpu::add(app, schedule);
-    #[cfg(feature = "wgpu")]
-    gpu::plugin::add(app, schedule);
-}
-
-/// Makes the schedule of the cameras after the first, unless it is there. Most Apps never need it.
-fn make_further_camera(mut schedules: ResMut<Schedules>) {
-    if schedules.contains(FurtherCamera) {
-        return;
-    }
-    let mut app = App::empty();
-    add_further_camera(&mut app);
-    cpu::add_stages(&mut app, FurtherCamera.intern());
-    #[cfg(feature = "wgpu")]
-    gpu::plugin::add_stages(&mut app, FurtherCamera.intern());
-    let made = app.world_mut().resource_mut::<Schedules>().remove(FurtherCamera);
-    made.and_then(|schedule| schedules.insert(schedule));
-}
-
-/// Opens an adapter for headless pictures unless one is open. A failure is reported and retried in every frame, so that
-/// an adapter that appears later is found. A lost device is replaced after its loss was reported.
-fn open(world: &mut World) {
-    #[cfg(feature = "wgpu")]
-    if let Some(gpu) = world.get_resource::<Gpu>().cloned() {
-        if !gpu.is_lost() {
-            return;
-        }
-        if let Some(loss) = gpu.take_loss() {
-            world.resource_mut::<FrameReport>().errors.push(loss);
-            return;
-        }
-        open_anew(world);
-        return;
-    }
-    if !world.contains_resource::<Cpu>() {
-        open_anew(world);
-    }
-}
-
-fn open_anew(world: &mut World) {
-    match world.resource::<AdapterChoice>().open() {
-        Ok(adapter) => {
-            log::info!("drawing on {}", adapter.describe());
-            adapter.insert_into(world);
-        }
-        Err(error) => world.resource_mut::<FrameReport>().errors.push(error),
     }
 }

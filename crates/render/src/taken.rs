@@ -5,7 +5,7 @@ use crate::has_lines::has_lines;
 use crate::jitter;
 use crate::legend::draw_legend;
 use crate::lines;
-use crate::pending::{PendingPicture, check_frame, run_frame};
+use crate::pending::{Destination, PendingPicture, check_frame, run_frame};
 use crate::picture::Picture;
 use crate::views::{self, Views};
 use bevy_app::App;
@@ -82,14 +82,6 @@ fn frame_picture(world: &mut World) -> Result<Picture, RenderError> {
 fn finished(world: &mut World) -> Result<Picture, RenderError> {
     check_frame(world)?;
     put_together(world, Destination::Taken, Err)
-}
-
-/// What a picture is finished for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Destination {
-    Taken,
-    /// A window, which is opaque.
-    Window,
 }
 
 /// The same whatever errors the frame has. `refused` gets those of backgrounds and lines, and says whether they end it.

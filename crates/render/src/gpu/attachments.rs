@@ -1,6 +1,5 @@
 //! The attachments of a frame: textures, or the picture of a window's surface.
 
-use crate::finished_window::FinishedWindow;
 use crate::gpu::device::Gpu;
 use crate::gpu::format::{DEPTH_FORMAT, drawn_format, headless_format, is_float};
 use crate::gpu::passes::policy::PicturePasses;
@@ -9,6 +8,7 @@ use crate::gpu::surface::{Lost, SurfaceLost, SurfaceTarget};
 use crate::gpu::texture::TextureTarget;
 use crate::headless::Headless;
 use crate::picture::Pixels;
+use crate::window_picture::FinishedWindow;
 use bevy_ecs::prelude::*;
 use bevy_math::{URect, UVec2};
 use halfway_frame::error::RenderError;

@@ -2,7 +2,6 @@
 
 use crate::adapter::cpu_draws;
 use crate::cpu;
-use crate::finished_window;
 use crate::gpu::attachments::{self, Target};
 use crate::gpu::device::Gpu;
 use crate::gpu::draw::meshes::{self as mesh_buffers, MeshBuffers};
@@ -16,6 +15,7 @@ use crate::gpu::texture;
 use crate::headless;
 use crate::replaced;
 use crate::views::{self, Views};
+use crate::window_picture::{self, Present};
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::InternedScheduleLabel;
@@ -36,14 +36,14 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
             attachments::measure.in_set(View).after(headless::measure).before(views::begin),
             (
                 shared_window::present
-                    .run_if(Views::are_there.or_else(finished_window::is_asked))
+                    .run_if(Views::are_there.or_else(window_picture::is_asked))
                     .run_if(resource_exists::<SurfaceTarget>),
                 encode::present,
             )
                 .chain()
                 .in_set(Deliver)
+                .in_set(Present)
                 .after(views::draw_further)
-                .after(finished_window::finish)
                 .run_if(gpu_draws),
             texture::refuse_on_cpu.in_set(View).after(cpu::draw::prepare).run_if(cpu_draws),
             over::refuse_on_cpu.in_set(Draw).run_if(cpu_draws).run_if(over::is_any),
@@ -55,7 +55,7 @@ pub(crate) fn add(app: &mut App, schedule: InternedScheduleLabel) {
 pub(crate) fn add_stages(app: &mut App, schedule: InternedScheduleLabel) {
     add_backend::<Pipelines, _>(app, schedule, gpu_draws);
     let systems = (
-        attachments::prepare.in_set(View).after(ReadCamera).after(replaced::forget).after(finished_window::ask),
+        attachments::prepare.in_set(View).after(ReadCamera).after(replaced::forget).after(window_picture::ask),
         cache::begin.in_set(Illuminate).before(lit_patches::illuminate::<Pipelines>),
         (
             mesh_buffers::upload,

@@ -1,11 +1,11 @@
 //! Pictures that are copied to a window: those of several cameras that share it, and those that are finished in memory.
 
-use crate::finished_window::FinishedWindow;
 use crate::gpu::attachments::Target;
 use crate::gpu::device::Gpu;
 use crate::gpu::surface::{Lost, SurfaceLost, SurfaceTarget};
 use crate::gpu::window_pass::WindowPass;
 use crate::views::Views;
+use crate::window_picture::FinishedWindow;
 use bevy_ecs::prelude::*;
 use halfway_frame::error::RenderError;
 use halfway_frame::report::FrameReport;

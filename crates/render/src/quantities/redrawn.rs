@@ -1,11 +1,11 @@
 //! A copy of the visible scene, drawn with other materials: so that what is not a colour can be read from a picture.
 
 use crate::adapter::Adapter;
+use crate::drawers::add_drawers;
 use crate::headless::Headless;
 use crate::jitter;
 use crate::pending::{DrawnIn, draw_frame};
 use crate::picture::{Picture, Pixels};
-use crate::plugin::add_drawers;
 use bevy_app::{App, PostUpdate};
 use bevy_color::LinearRgba;
 use bevy_ecs::prelude::*;
