@@ -1,23 +1,15 @@
 //! Paints the panels on the CPU: triangles with colours and images, blended over the pixels of a window.
 
-use std::collections::HashMap;
-
-use egui::epaint::{ImageData, ImageDelta, Mesh, Primitive, Vertex};
-use egui::{Color32, Pos2, TextureId};
+use egui::epaint::{Mesh, Primitive, Vertex};
+use egui::{Color32, ColorImage, Pos2};
 use halfway::prelude::UVec2;
 
-use super::Painted;
+use super::{Images, Painted};
 
-/// The images of the panels.
+/// The painter, with the images of the panels.
 #[derive(Default)]
 pub(crate) struct Painter {
-    images: HashMap<TextureId, Image>,
-}
-
-struct Image {
-    size: [usize; 2],
-    /// Premultiplied, as the sRGB curve has them, row by row.
-    texels: Vec<Color32>,
+    images: Images,
 }
 
 /// The part of the window that a mesh may touch, in pixels: from `low` on and before `high`.
@@ -31,12 +23,10 @@ impl Painter {
     /// Paints over `pixels`, of which each is 0x00RRGGBB.
     pub(crate) fn paint(&mut self, painted: &mut Painted, pixels: &mut [u32], size: UVec2) {
         let textures = std::mem::take(&mut painted.textures);
-        for (id, deltas) in &textures.set {
-            deltas.iter().for_each(|delta| self.update(*id, delta));
-        }
+        self.images.update(&textures);
         for primitive in &painted.primitives {
             let Primitive::Mesh(mesh) = &primitive.primitive else { continue };
-            let Some(image) = self.images.get(&mesh.texture_id) else { continue };
+            let Some(image) = self.images.get(mesh.texture_id) else { continue };
             let scale = painted.scale;
             let pixel = |at: f32, limit: u32| ((at * scale).round() as i32).clamp(0, limit as i32);
             let rect = primitive.clip_rect;
@@ -46,42 +36,23 @@ impl Painter {
             };
             paint_mesh(mesh, image, scale, clip, (pixels, size.x as usize));
         }
-        textures.free.iter().for_each(|id| drop(self.images.remove(id)));
-    }
-
-    fn update(&mut self, id: TextureId, delta: &ImageDelta) {
-        let ImageData::Color(part) = &delta.image;
-        let Some([left, top]) = delta.pos else {
-            self.images.insert(id, Image { size: part.size, texels: part.pixels.clone() });
-            return;
-        };
-        let Some(image) = self.images.get_mut(&id) else { return };
-        let [width, height] = part.size;
-        if left + width > image.size[0] || top + height > image.size[1] {
-            return;
-        }
-        for (row, texels) in part.pixels.chunks(width.max(1)).enumerate() {
-            let first = (top + row) * image.size[0] + left;
-            image.texels[first..first + width].copy_from_slice(texels);
-        }
+        self.images.free(&textures);
     }
 }
 
-impl Image {
-    /// The texel at a point of the image, each coordinate from 0 to 1.
-    fn nearest(&self, [u, v]: [f32; 2]) -> [f32; 4] {
-        let texel = |at: f32, count: usize| ((at * count as f32) as usize).min(count - 1);
-        let [width, height] = self.size;
-        channels(self.texels[texel(v, height) * width + texel(u, width)])
-    }
+/// The texel at a point of an image, each coordinate from 0 to 1.
+fn nearest(image: &ColorImage, [u, v]: [f32; 2]) -> [f32; 4] {
+    let texel = |at: f32, count: usize| ((at * count as f32) as usize).min(count - 1);
+    let [width, height] = image.size;
+    channels(image.pixels[texel(v, height) * width + texel(u, width)])
 }
 
 fn channels(color: Color32) -> [f32; 4] {
     color.to_array().map(f32::from)
 }
 
-fn paint_mesh(mesh: &Mesh, image: &Image, scale: f32, clip: Clip, mut target: (&mut [u32], usize)) {
-    if image.texels.is_empty() {
+fn paint_mesh(mesh: &Mesh, image: &ColorImage, scale: f32, clip: Clip, mut target: (&mut [u32], usize)) {
+    if image.pixels.is_empty() {
         return;
     }
     for corners in mesh.indices.as_chunks::<3>().0 {
@@ -97,7 +68,7 @@ fn scaled(vertex: Vertex, scale: f32) -> Vertex {
 
 /// A pixel belongs to the triangle if its middle does. Triangles that share an edge compute it from the same end, so that
 /// each pixel along it belongs to one of them.
-fn paint_triangle(corners: [Vertex; 3], image: &Image, clip: Clip, (pixels, width): &mut (&mut [u32], usize)) {
+fn paint_triangle(corners: [Vertex; 3], image: &ColorImage, clip: Clip, (pixels, width): &mut (&mut [u32], usize)) {
     let [a, b, c] = corners.map(|vertex| vertex.pos);
     let area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
     if !area.is_finite() || area == 0.0 {
@@ -161,8 +132,8 @@ fn span([a, b, c]: [Pos2; 3], y: f32) -> Option<[f32; 2]> {
 }
 
 /// Colour times image: premultiplied, each channel 0 to 255.
-fn source([r, g, b, a, u, v]: [f32; 6], image: &Image) -> [f32; 4] {
-    let texel = image.nearest([u, v]);
+fn source([r, g, b, a, u, v]: [f32; 6], image: &ColorImage) -> [f32; 4] {
+    let texel = nearest(image, [u, v]);
     std::array::from_fn(|k| [r, g, b, a][k].clamp(0.0, 255.0) * texel[k] * (1.0 / 255.0))
 }
 
@@ -176,7 +147,8 @@ fn over(color: [f32; 4], pixel: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use egui::{ClippedPrimitive, ColorImage, Rect, pos2, vec2};
+    use egui::epaint::ImageDelta;
+    use egui::{ClippedPrimitive, Rect, TextureId, pos2, vec2};
 
     const SIZE: UVec2 = UVec2::new(16, 8);
 

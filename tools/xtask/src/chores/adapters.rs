@@ -39,10 +39,11 @@ pub(crate) fn run(options: &Options) -> Result {
 pub(crate) const NEEDS: [Need; 3] = [LAVAPIPE, OPENGL, SWIFTSHADER];
 
 /// Tests that need a graphics driver, by file: those whose names begin so, or all of the file.
-const ABOUT_DRIVERS: [(&str, &[&str]); 16] = [
+const ABOUT_DRIVERS: [(&str, &[&str]); 17] = [
     ("crates/render/src/gpu/timer.rs", &["frames_that_are_refused_have_no_time"]),
     ("crates/render/src/gpu/passes/encode.rs", &["nothing_is_left_out_without_an_error"]),
     ("crates/render/src/gpu/pipelines/cache/tests.rs", &[]),
+    ("crates/viewer/src/paint/gpu.rs", &["another_device_paints"]),
     ("crates/render/src/gpu/pipelines/compile.rs", &["a_failed_pipeline_returns", "the_thread_ends_with"]),
     (
         "crates/command/tests/command/adapters.rs",
