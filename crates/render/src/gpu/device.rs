@@ -145,8 +145,8 @@ impl Gpu {
         lock(&self.notices).loss.is_some()
     }
 
-    /// A number that identifies the device.
-    pub(crate) fn id(&self) -> u64 {
+    /// A number that no other device of this program has. Devices of two instances of wgpu may compare as equal.
+    pub fn id(&self) -> u64 {
         self.id
     }
 

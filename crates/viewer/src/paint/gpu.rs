@@ -21,7 +21,7 @@ pub(crate) struct PaintPass {
 /// The renderer of one device and format.
 struct Made {
     renderer: Renderer,
-    key: (wgpu::Device, wgpu::TextureFormat),
+    key: (u64, wgpu::TextureFormat),
 }
 
 impl PaintPass {
@@ -33,7 +33,7 @@ impl PaintPass {
 impl DrawOverWindow for PaintPass {
     fn draw(&mut self, gpu: &Gpu, picture: &wgpu::TextureView, format: wgpu::TextureFormat, size: UVec2) {
         let mut painted = self.painted.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = (gpu.device.clone(), format);
+        let key = (gpu.id(), format);
         if self.made.as_ref().is_none_or(|made| made.key != key) {
             let options = RendererOptions { dithering: false, ..RendererOptions::default() };
             let mut renderer = Renderer::new(&gpu.device, format, options);
