@@ -4,14 +4,14 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::Args;
-use halfway::lighting::Choices;
+use halfway::lighting::{Choices, Term};
 use halfway::output::ContactSheet;
 use halfway::prelude::*;
 use halfway::record::{FrameToDraw, RecordError, Recording, ReferenceDrawing, record_with};
 use halfway::reference::Mode;
 use halfway::render::Adapter;
 use halfway::scene::options::{SceneOptions, Views, views};
-use halfway::scene::{SceneTime, Turntable, outline};
+use halfway::scene::{PartOfLight, SceneTime, Turntable, outline};
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::empty::warn_if_empty;
@@ -51,9 +51,10 @@ pub(crate) struct RenderArgs {
     /// Also write a contact sheet of up to 16 of the frames, a PNG
     #[arg(long, value_name = "FILE")]
     contact_sheet: Option<PathBuf>,
-    /// Also write what the picture shows beside colour, each quantity to a .exr or .png; in one .exr they are layers
-    #[arg(long, value_name = "QUANTITY=FILE,…", value_delimiter = ',', value_parser = parse_quantity)]
-    also: Vec<(Quantity, PathBuf)>,
+    /// Also write what the picture shows beside colour, each quantity to a .exr or .png; in one .exr they are layers; or
+    /// a term of the light alone, such as diffuse=d.exr
+    #[arg(long, value_name = "QUANTITY=FILE,…", value_delimiter = ',', value_parser = parse_also)]
+    also: Vec<(Also, PathBuf)>,
     /// Draw with the reference renderer: every pixel in 64-bit arithmetic on the CPU, without a graphics adapter
     #[arg(long, conflicts_with = "adapter")]
     reference: bool,
@@ -63,6 +64,41 @@ pub(crate) struct RenderArgs {
     /// N × N samples a pixel, 1 to 16 [default: as many as the scene has]
     #[arg(long, value_name = "N", requires = "reference", value_parser = clap::value_parser!(u32).range(1..=16))]
     supersample: Option<u32>,
+}
+
+/// A picture beside that of the colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Also {
+    Quantity(Quantity),
+    Term(Term),
+}
+
+impl RenderArgs {
+    fn quantities(&self) -> Vec<(Quantity, PathBuf)> {
+        let quantity = |(also, file): &(Also, PathBuf)| match also {
+            Also::Quantity(quantity) => Some((*quantity, file.clone())),
+            Also::Term(_) => None,
+        };
+        self.also.iter().filter_map(quantity).collect()
+    }
+
+    /// The terms that are drawn alone, with their files.
+    fn terms(&self) -> Result<Vec<(Term, &PathBuf)>, Failure> {
+        let mut terms = Vec::new();
+        for (number, (also, file)) in self.also.iter().enumerate() {
+            let Also::Term(term) = also else { continue };
+            if self.frames.is_some() || self.turntable.is_some() {
+                let name = term.choice().map_or("", |choice| choice.key);
+                return Err(format!("--also {name}: a term is drawn of one picture; expected --only {name}").into());
+            }
+            let is_shared = self.also.iter().enumerate().any(|(other, (_, taken))| other != number && taken == file);
+            if is_shared || *file == self.output {
+                return Err(format!("--also: {}: a term has a file of its own", file.display()).into());
+            }
+            terms.push((*term, file));
+        }
+        Ok(terms)
+    }
 }
 
 /// The renderer of the frames.
@@ -139,7 +175,13 @@ impl Drawer {
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let options = args.drawing.options();
+    let terms = args.terms()?;
     let mut input = SceneInput::read(&args.drawing, &options)?;
+    if !terms.is_empty() && input.scene.only.is_some() {
+        return Err("--also: the picture has one term only; expected none of --only and the scene's `only`"
+            .to_owned()
+            .into());
+    }
     let size = input.resize(args.size);
     if args.views.is_some() || args.turntable.is_some() {
         input.see_alone();
@@ -156,7 +198,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         bits: args.bits,
         format: args.drawing.input.picture_format().map(str::to_owned),
         contact_sheet: args.contact_sheet.clone(),
-        also: args.also.clone(),
+        also: args.quantities(),
         ..Recording::new(args.output.clone())
     };
     let drawer = Drawer::choose(args)?;
@@ -178,7 +220,14 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             return Err(still("--time").into());
         }
     }
-    drawer.record(&mut app, &recording, args.time.unwrap_or(0.0))
+    let time = args.time.unwrap_or(0.0);
+    drawer.record(&mut app, &recording, time)?;
+    for (term, file) in terms {
+        spawned.show_light(PartOfLight { term: Some(term), ..spawned.part }, app.world_mut());
+        let alone = Recording { path: file.clone(), also: Vec::new(), contact_sheet: None, ..recording.clone() };
+        drawer.record(&mut app, &alone, time)?;
+    }
+    Ok(())
 }
 
 /// The most frames.
@@ -227,12 +276,17 @@ pub(crate) fn parse_time(text: &str) -> Result<f64, String> {
     time.ok_or_else(|| "expected seconds, 0 or more, such as 1.5".to_owned())
 }
 
-fn parse_quantity(text: &str) -> Result<(Quantity, PathBuf), String> {
-    let keys = || Quantity::CHOICES.iter().map(|choice| choice.key.replace('_', "-")).collect::<Vec<_>>().join(", ");
-    let expected = || format!("expected QUANTITY=FILE, such as depth=depth.exr, of the quantities {}", keys());
+fn parse_also(text: &str) -> Result<(Also, PathBuf), String> {
+    let expected = || {
+        let quantities = Quantity::CHOICES.iter().map(|choice| choice.key.replace('_', "-"));
+        let terms = Term::CHOICES.iter().map(|choice| choice.key.to_owned());
+        let all = quantities.chain(terms).collect::<Vec<_>>().join(", ");
+        format!("expected QUANTITY=FILE, such as depth=depth.exr, of the quantities {all}")
+    };
     let (key, file) = text.split_once('=').filter(|(_, file)| !file.is_empty()).ok_or_else(expected)?;
-    let quantity = Quantity::from_key(&key.replace('-', "_")).ok_or_else(expected)?;
-    Ok((quantity, file.into()))
+    let key = key.replace('-', "_");
+    let also = Quantity::from_key(&key).map(Also::Quantity).or_else(|| Term::from_key(&key).map(Also::Term));
+    Ok((also.ok_or_else(expected)?, file.into()))
 }
 
 #[cfg(test)]
@@ -241,10 +295,11 @@ mod tests {
 
     #[test]
     fn quantities_with_their_files() {
-        assert_eq!(parse_quantity("depth=out/d.exr"), Ok((Quantity::Depth, "out/d.exr".into())));
-        assert_eq!(parse_quantity("eye-normal=n.png"), Ok((Quantity::EyeNormal, "n.png".into())));
+        assert_eq!(parse_also("depth=out/d.exr"), Ok((Also::Quantity(Quantity::Depth), "out/d.exr".into())));
+        assert_eq!(parse_also("eye-normal=n.png"), Ok((Also::Quantity(Quantity::EyeNormal), "n.png".into())));
+        assert_eq!(parse_also("diffuse=d.png"), Ok((Also::Term(Term::Diffuse), "d.png".into())));
         for bad in ["", "depth", "depth=", "Depth=d.exr", "=d.exr", "colour=c.exr"] {
-            assert!(parse_quantity(bad).is_err_and(|error| error.contains("depth, distance")), "{bad}");
+            assert!(parse_also(bad).is_err_and(|error| error.contains("depth, distance")), "{bad}");
         }
     }
 

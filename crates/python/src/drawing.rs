@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use bevy_app::SubApp;
 use bevy_time::TimeUpdateStrategy;
-use halfway::lighting::Choices;
 use halfway::lighting::equations::srgb_encoded;
+use halfway::lighting::{Choices, Term};
 use halfway::output::ContactSheet;
 use halfway::prelude::*;
 use halfway::render::{EmptyReason, why_empty};
@@ -16,8 +16,8 @@ use halfway::scene::options::{
     SceneOptions, parse, remove_what_is_laid_over, scene_of_models, unknown_material, views,
 };
 use halfway::scene::{
-    CameraEntry, LightEntry, LoadedModel, MeshEntry, ObjectEntry, SceneFile, SceneTime, Spawned, Turntable, outline,
-    spawn, spawn_seen_from,
+    CameraEntry, LightEntry, LoadedModel, MeshEntry, ObjectEntry, PartOfLight, SceneFile, SceneTime, Spawned,
+    Turntable, outline, spawn, spawn_seen_from,
 };
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
@@ -197,28 +197,42 @@ impl Drawing {
         outputs: Vec<String>,
         ask_why: bool,
     ) -> PyResult<(PyPixels<'py>, Bound<'py, PyDict>, Option<String>)> {
-        let quantities = outputs.iter().map(|name| quantity(name)).collect::<Result<Vec<_>, _>>()?;
+        let kinds = outputs.iter().map(|name| output(name)).collect::<Result<Vec<_>, _>>()?;
+        let quantities: Vec<Quantity> = kinds.iter().filter_map(Output::quantity).collect();
         let (picture, images, why) = self.with(py, |app, spawned, recipe| {
             let pixels = if is_float { Pixels::Float } else { Pixels::Byte };
             set_time(app, spawned, time)?;
             let size = UVec2::from_array(recipe.scene.size);
-            if recipe.renderer == Renderer::Reference {
+            let (picture, images, why) = if recipe.renderer == Renderer::Reference {
                 let (picture, images) = reference_picture(app, size, pixels, &quantities)?;
-                return Ok((picture, images, None));
-            }
-            app.insert_resource(Headless { size, pixels });
-            let picture = render_picture(app).map_err(Failure::work)?;
-            let images = if quantities.is_empty() {
-                Vec::new()
+                (picture, images, None)
             } else {
-                take_quantities(app.world_mut(), &quantities).map_err(Failure::work)?
+                app.insert_resource(Headless { size, pixels });
+                let picture = render_picture(app).map_err(Failure::work)?;
+                let images = if quantities.is_empty() {
+                    Vec::new()
+                } else {
+                    take_quantities(app.world_mut(), &quantities).map_err(Failure::work)?
+                };
+                let why = if ask_why { nothing_is_seen(app, &picture) } else { None };
+                (picture, images, why)
             };
-            let why = if ask_why { nothing_is_seen(app, &picture) } else { None };
-            Ok((picture, images, why))
+            let mut images = images.into_iter();
+            let mut all = Vec::with_capacity(kinds.len());
+            for kind in &kinds {
+                all.push(match kind {
+                    Output::Quantity(quantity) => {
+                        let values = images.next().ok_or_else(|| Failure::Work("outputs: one is missing".into()))?;
+                        (values.values, quantity.channels().len())
+                    }
+                    Output::Term(term) => (term_alone(*term, (app, spawned, recipe), size)?, 3),
+                });
+            }
+            Ok((picture, all, why))
         })?;
         let named = PyDict::new(py);
-        for (name, QuantityImage { quantity, values, .. }) in outputs.iter().zip(&images) {
-            named.set_item(name, image_to_python(py, values, quantity.channels().len()))?;
+        for (name, (values, channels)) in outputs.iter().zip(&images) {
+            named.set_item(name, image_to_python(py, values, *channels))?;
         }
         Ok((to_python(py, &picture), named, why))
     }
@@ -343,11 +357,53 @@ fn image_to_python<'py>(py: Python<'py>, values: &QuantityValues, channels: usiz
     }
 }
 
-fn quantity(name: &str) -> Result<Quantity, Failure> {
-    Quantity::from_key(&name.replace('-', "_")).ok_or_else(|| {
-        let known: Vec<&str> = Quantity::CHOICES.iter().map(|choice| choice.key).collect();
-        Failure::Input(format!("outputs: {name:?}; expected color, {}", known.join(", ")))
-    })
+/// What a picture has beside its colours.
+enum Output {
+    Quantity(Quantity),
+    /// A term of the light alone.
+    Term(Term),
+}
+
+impl Output {
+    fn quantity(&self) -> Option<Quantity> {
+        if let Self::Quantity(quantity) = self { Some(*quantity) } else { None }
+    }
+}
+
+fn output(name: &str) -> Result<Output, Failure> {
+    let key = name.replace('-', "_");
+    let found = Quantity::from_key(&key).map(Output::Quantity).or_else(|| Term::from_key(&key).map(Output::Term));
+    found.ok_or_else(|| Failure::Input(format!("outputs: {name:?}; expected color, {}", output_names().join(", "))))
+}
+
+fn output_names() -> Vec<&'static str> {
+    let quantities = Quantity::CHOICES.iter().map(|choice| choice.key);
+    quantities.chain(Term::CHOICES.iter().map(|choice| choice.key)).collect()
+}
+
+/// The linear colours that a term of the light adds.
+fn term_alone(
+    term: Term,
+    (app, spawned, recipe): (&mut App, &Spawned, &Recipe),
+    size: UVec2,
+) -> Result<QuantityValues, Failure> {
+    if recipe.scene.only.is_some() {
+        return Err(Failure::Input("outputs: the picture has one term only; expected no `only`".into()));
+    }
+    spawned.show_light(PartOfLight { term: Some(term), ..spawned.part }, app.world_mut());
+    let drawn = if recipe.renderer == Renderer::Reference {
+        reference_picture(app, size, Pixels::Float, &[]).map(|(picture, _)| picture)
+    } else {
+        app.insert_resource(Headless { size, pixels: Pixels::Float });
+        render_picture(app).map_err(Failure::work)
+    };
+    spawned.show_light(spawned.part, app.world_mut());
+    match drawn? {
+        Picture::Float(image) => {
+            Ok(QuantityValues::Floats(image.pixels().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()))
+        }
+        Picture::Byte(_) => Err(Failure::Work("outputs: no colours in floating point".into())),
+    }
 }
 
 /// Why nothing is seen in the picture, if all its pixels are equal.
@@ -423,8 +479,7 @@ fn default_scene() -> PyResult<String> {
 
 pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("OPTIONS", SceneOptions::NAMES.to_vec())?;
-    let outputs: Vec<&str> = Quantity::CHOICES.iter().map(|choice| choice.key).collect();
-    module.add("OUTPUTS", outputs)?;
+    module.add("OUTPUTS", output_names())?;
     let presets: Vec<&str> = Material::PRESETS.iter().map(|(name, _)| *name).collect();
     module.add("PRESETS", presets)?;
     module.add_function(wrap_pyfunction!(check, module)?)?;

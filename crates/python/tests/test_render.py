@@ -64,6 +64,21 @@ def test_outputs_are_arrays_of_their_kinds(box):
     assert np.ptp(outputs["depth"][hit] + outputs["position"][hit][:, 2]) < 1e-4
 
 
+def test_terms_sum_to_the_picture(box):
+    terms = ["ambient", "diffuse", "specular", "emission"]
+    for draw in (halfway.render, halfway.reference):
+        alone = draw(*box, size=SIZE, floats=True, samples=1, outputs=["color", "depth", *terms])
+        assert list(alone) == ["color", "depth", *terms]
+        assert alone["diffuse"].shape == (64, 96, 3) and alone["diffuse"].max() > 0.1
+        # Nothing is above 1 there, so that nothing is clamped.
+        assert alone["color"][..., :3].max() < 1.0
+        np.testing.assert_allclose(sum(alone[term] for term in terms), alone["color"][..., :3], atol=1e-6)
+        again = draw(*box, size=SIZE, floats=True, samples=1)
+        assert (again == alone["color"]).all()
+    with pytest.raises(ValueError, match="one term only"):
+        halfway.render(*box, size=SIZE, only="diffuse", outputs=["specular"])
+
+
 def test_floats_are_linear_intensities(box):
     floats = halfway.render(*box, size=SIZE, floats=True, samples=1)
     encoded = halfway.render(*box, size=SIZE, samples=1)

@@ -61,6 +61,8 @@ pub struct Spawned {
     /// The [`Origin`] of the camera and of all that is near it; 0 unless the scene is far away beside its size, as at map
     /// coordinates.
     pub origin: DVec3,
+    /// The part of its light that the scene asks for.
+    pub part: PartOfLight,
 }
 
 impl Spawned {
@@ -276,8 +278,10 @@ fn spawn_seen(
         spawn_legend(title, &objects, &mut warnings, world);
     }
     let is_animated = [&cameras[..], &frames, &lights].concat().iter().any(|entity| is_animated(*entity, world));
-    let spawned = Spawned { camera, cameras, objects: frames, lights, environment, warnings, is_animated, origin };
-    spawned.show_light(PartOfLight { term: scene.only, source }, world);
+    let part = PartOfLight { term: scene.only, source };
+    let spawned =
+        Spawned { camera, cameras, objects: frames, lights, environment, warnings, is_animated, origin, part };
+    spawned.show_light(part, world);
     Ok(spawned)
 }
 

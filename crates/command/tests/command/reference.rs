@@ -223,3 +223,30 @@ fn the_reference_has_quantities_too() {
         assert!(apart <= 4, "{of_reference}: {apart} pixels differ");
     }
 }
+
+#[test]
+fn a_term_beside_the_picture_is_that_term_alone() {
+    let folder = folder("a_term_beside");
+    let cube = asset("assets/cube.smf");
+    for drawer in [&["--adapter", "cpu"][..], &["--reference"]] {
+        let render = |arguments: &[&str]| {
+            succeeds(&folder, &[&["render", &cube, "--size", "48x32"], drawer, arguments].concat());
+        };
+        render(&["-o", "whole.png", "--also", "diffuse=beside.exr,id=id.png,specular=highlights.png"]);
+        render(&["-o", "alone.exr", "--only", "diffuse"]);
+        render(&["-o", "plain.png"]);
+        let bytes = |name: &str| std::fs::read(folder.join(name)).expect("it was written");
+        assert!(bytes("beside.exr") == bytes("alone.exr"), "{drawer:?}");
+        assert!(bytes("whole.png") == bytes("plain.png"), "{drawer:?}");
+        assert!(bytes("highlights.png") != bytes("plain.png"), "{drawer:?}");
+    }
+    for (arguments, expected) in [
+        (&["--also", "diffuse=d.png", "--only", "specular"][..], "one term only"),
+        (&["--also", "diffuse=d.exr,depth=d.exr"], "a file of its own"),
+        (&["--also", "diffuse=d.png", "--turntable", "4"], "--only diffuse"),
+    ] {
+        let output = halfway(&folder, &[&["render", &cube, "--size", "8x8", "-o", "x.png"], arguments].concat());
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && said.contains(expected), "{said}");
+    }
+}

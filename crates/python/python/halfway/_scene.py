@@ -430,8 +430,9 @@ class Scene:
 
         `camera` is a `Camera`, or the name or number of one of the scene's. With `outputs` the result is a dictionary of
         arrays: "color", and any of `halfway.OUTPUTS`, such as "depth" (world units along the axis of the camera) or "id"
-        (the number of the object, from 1 on); all are 0 where there is only background. `options` are those of the
-        command, with the same values: view, up, ortho, shading, background, edges and so on.
+        (the number of the object, from 1 on); all are 0 where there is only background. "ambient", "diffuse", "specular"
+        and "emission" are what one term of the light adds, in linear intensities. `options` are those of the command,
+        with the same values: view, up, ortho, shading, background, edges and so on.
         """
         return self._draw(size, camera, time, floats, outputs, options, reference=False)
 
