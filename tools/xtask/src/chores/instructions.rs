@@ -9,7 +9,8 @@ use std::sync::Mutex;
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use crate::cargo::{announce, cargo, printed, root, step};
+use super::program::{self, Program};
+use crate::cargo::{announce, printed, root};
 use crate::failure::{Failure, Result};
 use crate::setup::{CALLGRIND, Setup};
 
@@ -58,7 +59,7 @@ pub(crate) fn run(options: &Options) -> Result {
         return Err(Failure::new("instructions are counted on Linux, on x86-64 with AVX2"));
     }
     options.setup.meet(&[CALLGRIND])?;
-    step("build", &mut cargo(["build", "--release", "--workspace"]))?;
+    program::build(Program::Binary("halfway"))?;
     let counted = count()?;
     let toolchain = toolchain()?;
     if options.keep {

@@ -41,10 +41,11 @@ pub(crate) fn run<A: AsRef<OsStr>>(title: &str, program: Program, arguments: imp
 
 /// Builds a program; its path.
 ///
-/// It is built as a part of the workspace: chosen by its package, its dependencies would have other features than for
-/// the tests, and most of them would be built once more.
+/// It is built as a part of the workspace and beside an example, as for the tests: else its dependencies would have
+/// other features, and most of them would be built once more.
 pub(crate) fn build(program: Program) -> Result<PathBuf> {
-    step("build", cargo(["build", "--release", "--workspace"]).args(program.target()))?;
+    let beside = Program::Example("first_picture").target();
+    step("build", cargo(["build", "--release", "--workspace"]).args(program.target()).args(beside))?;
     program.built()
 }
 
