@@ -3,6 +3,7 @@
 use crate::quantities::{SeenPlane, Surfaces};
 use bevy_ecs::entity::Entity;
 use bevy_math::{DAffine3, DVec2, DVec3, IVec2, UVec2};
+use bevy_platform::collections::HashMap;
 use halfway_lighting::{Lens, Width};
 use std::cell::RefCell;
 
@@ -33,11 +34,13 @@ pub(super) struct Placed {
 /// The picture that lines are drawn over.
 pub(super) struct Drawing<'a> {
     surfaces: &'a Surfaces,
+    /// The numbers of the objects that pixels may show.
+    numbers: HashMap<Entity, u32>,
 }
 
 impl<'a> Drawing<'a> {
     pub(super) fn new(surfaces: &'a Surfaces) -> Self {
-        Self { surfaces }
+        Self { surfaces, numbers: surfaces.entities().zip(0..).collect() }
     }
 
     pub(super) fn lens(&self) -> &Lens<f64> {
@@ -50,6 +53,11 @@ impl<'a> Drawing<'a> {
 
     pub(super) fn eye_from_world(&self) -> DAffine3 {
         self.surfaces.eye_from_world()
+    }
+
+    /// The number of an object among those that pixels may show.
+    pub(super) fn number_of(&self, entity: Entity) -> Option<u32> {
+        self.numbers.get(&entity).copied()
     }
 
     /// A width in pixels at a depth, given by its [`Lens::unfitted_nearness`].
@@ -105,6 +113,8 @@ pub(super) struct Sight<'a> {
     pub(super) drawing: &'a Drawing<'a>,
     /// The pixels asked for last, each at its number modulo [`KEPT`].
     kept: RefCell<Vec<(u32, SeenPlane)>>,
+    /// The farthest surfaces beside the pixels asked for last, in the same way.
+    beside: RefCell<Vec<(u32, f64)>>,
 }
 
 /// The most pixels whose surfaces are kept: lines ask for the same ones again and again.
@@ -112,13 +122,17 @@ const KEPT: usize = 1 << 14;
 
 impl<'a> Sight<'a> {
     pub(super) fn new(drawing: &'a Drawing) -> Self {
-        Self { drawing, kept: RefCell::new(vec![(u32::MAX, SeenPlane::default()); KEPT]) }
+        Self {
+            drawing,
+            kept: RefCell::new(vec![(u32::MAX, SeenPlane::default()); KEPT]),
+            beside: RefCell::new(vec![(u32::MAX, 0.0); KEPT]),
+        }
     }
 
     /// The surface in a pixel; `None` where there is only background.
     fn seen(&self, x: u32, y: u32) -> Option<SeenPlane> {
         let surfaces = self.drawing.surfaces;
-        surfaces.number_at(x, y)?;
+        surfaces.numbers_at(x, y)?;
         let pixel = y * surfaces.size().x + x;
         let place = pixel as usize % KEPT;
         let (kept, plane) = self.kept.borrow()[place];
@@ -152,28 +166,47 @@ impl<'a> Sight<'a> {
         depth - 0.25 * pixel <= seen.depth || is_slope() && sees()
     }
 
-    /// Whether no surface lies before a point at this depth.
+    /// Whether no surface lies before a point at this depth. `own` are the triangles that it belongs to, if any, and
+    /// their object's [number](Drawing::number_of).
     ///
     /// It is seen where its pixel or one beside it shows a triangle that it belongs to, something that lies farther away,
     /// or nothing: at a silhouette the pixel itself may show either side. In its pixel, the plane of the surface counts.
-    pub(super) fn sees(&self, at: DVec2, depth: f64, is_own: impl Fn((Entity, u32)) -> bool) -> bool {
-        let size = self.drawing.size();
-        let pixel = at.floor().as_ivec2().clamp(IVec2::ZERO, size.as_ivec2() - 1);
+    pub(super) fn sees(&self, at: DVec2, depth: f64, own: Option<(u32, [u32; 2])>) -> bool {
+        let (size, surfaces) = (self.drawing.size(), self.drawing.surfaces);
+        let UVec2 { x, y } = at.floor().as_ivec2().clamp(IVec2::ZERO, size.as_ivec2() - 1).as_uvec2();
+        let shows = |numbers: Option<[u32; 2]>| match (numbers, own) {
+            (None, _) => true,
+            (Some([object, triangle]), Some((of, triangles))) => object == of && triangles.contains(&triangle),
+            (Some(_), None) => false,
+        };
+        let around = |x: u32, limit: u32| x.saturating_sub(1)..=(x + 1).min(limit - 1);
+        if around(y, size.y).any(|y| around(x, size.x).any(|x| shows(surfaces.numbers_at(x, y)))) {
+            return true;
+        }
         // Nearer by a quarter of a pixel, so that an edge is not hidden by its own surface.
         let depth = depth - 0.25 * self.drawing.pixel_size(depth);
-        AROUND.into_iter().any(|step| {
-            let [x, y] = (pixel + step).to_array();
-            let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return false };
-            if x >= size.x || y >= size.y {
-                return false;
+        depth <= self.farthest_beside(x, y) || self.seen(x, y).is_none_or(|seen| depth <= self.plane_depth(&seen, at))
+    }
+
+    /// The depth of the farthest surface in the pixels beside this one, all of which show one.
+    fn farthest_beside(&self, x: u32, y: u32) -> f64 {
+        let size = self.drawing.size();
+        let pixel = y * size.x + x;
+        let place = pixel as usize % KEPT;
+        let (kept, farthest) = self.beside.borrow()[place];
+        if kept == pixel {
+            return farthest;
+        }
+        let mut farthest = f64::NEG_INFINITY;
+        for row in y.saturating_sub(1)..=(y + 1).min(size.y - 1) {
+            for column in x.saturating_sub(1)..=(x + 1).min(size.x - 1) {
+                if (column, row) != (x, y) {
+                    farthest = self.seen(column, row).map_or(f64::INFINITY, |seen| farthest.max(seen.depth));
+                }
             }
-            let Some(seen) = self.drawing.surfaces.number_at(x, y) else { return true };
-            if is_own(seen) {
-                return true;
-            }
-            let Some(seen) = self.seen(x, y) else { return true };
-            depth <= if step == IVec2::ZERO { self.plane_depth(&seen, at) } else { seen.depth }
-        })
+        }
+        self.beside.borrow_mut()[place] = (pixel, farthest);
+        farthest
     }
 
     /// The depth of a surface's plane on the ray through a point of the picture, or of the surface if that lies farther.
@@ -185,16 +218,3 @@ impl<'a> Sight<'a> {
         if depth.is_finite() { depth.max(seen.depth) } else { seen.depth }
     }
 }
-
-/// A pixel, and those beside it.
-const AROUND: [IVec2; 9] = [
-    IVec2::ZERO,
-    IVec2::new(-1, 0),
-    IVec2::new(1, 0),
-    IVec2::new(0, -1),
-    IVec2::new(0, 1),
-    IVec2::new(-1, -1),
-    IVec2::new(1, -1),
-    IVec2::new(-1, 1),
-    IVec2::new(1, 1),
-];

@@ -121,7 +121,7 @@ impl Drawing<'_> {
         let eye_from_model = self.eye_from_world() * world_from_model;
         let at_eye = |p: &Vec3| eye_from_model.transform_point3(p.as_dvec3());
         let corners: Vec<DVec3> = object.mesh.positions().par_iter().with_min_len(4096).map(at_eye).collect();
-        let size = self.size();
+        let (size, number) = (self.size(), self.number_of(object.entity));
         let height = size.y.div_ceil(BANDS);
         for edges in object.all.chunks(MOST_LINES) {
             let placed = edges.par_iter().with_min_len(1024).filter_map(|edge| self.line(object, edge, &corners));
@@ -141,7 +141,7 @@ impl Drawing<'_> {
                     |sight, (band, (coverage, lines))| {
                         let first = band as u32 * height;
                         for line in lines {
-                            sight.draw_edge(object, line, first, coverage);
+                            sight.draw_edge((object, number), line, first, coverage);
                         }
                     },
                 );
@@ -183,7 +183,7 @@ impl Drawing<'_> {
 
 impl Sight<'_> {
     /// Adds a line to the coverage of the rows from `first` on. Where lines of one colour meet, the larger coverage counts.
-    fn draw_edge(&self, object: &EdgedObject, line: &Line, first: u32, coverage: &mut [f32]) {
+    fn draw_edge(&self, (object, number): (&EdgedObject, Option<u32>), line: &Line, first: u32, coverage: &mut [f32]) {
         let width = self.drawing.size().x;
         let rows = first..first + coverage.len() as u32 / width;
         let length = (line.segment.to - line.segment.from).length();
@@ -193,18 +193,18 @@ impl Sight<'_> {
                 return;
             }
             let dashes = object.edges.hidden == HiddenEdges::Dash;
-            let shows = self.shows_edge(object, line, along) || dashes && is_dash(along * length);
+            let shows = self.shows_edge(number, line, along) || dashes && is_dash(along * length);
             if shows {
                 *there = share as f32;
             }
         });
     }
 
-    /// Whether a point of the line is seen: where one of the edge's own triangles is, too.
-    fn shows_edge(&self, object: &EdgedObject, line: &Line, along: f64) -> bool {
+    /// Whether a point of the line is seen: where one of the edge's own triangles is, too. Objects that no pixel may show
+    /// have no number.
+    fn shows_edge(&self, number: Option<u32>, line: &Line, along: f64) -> bool {
         let at = line.segment.from.lerp(line.segment.to, along);
         let nearness = line.nearness[0] + along * (line.nearness[1] - line.nearness[0]);
-        let is_own = |(entity, triangle)| entity == object.entity && line.triangles.contains(&triangle);
-        self.sees(at, self.drawing.lens().depth_at(nearness), is_own)
+        self.sees(at, self.drawing.lens().depth_at(nearness), number.map(|number| (number, line.triangles)))
     }
 }

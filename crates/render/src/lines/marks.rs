@@ -108,7 +108,7 @@ impl Mark {
                     let depth = drawing.lens().depth_at(near);
                     let at = segment.from.lerp(segment.to, along);
                     let half = 0.5 * (segment.widths[0] + along * (segment.widths[1] - segment.widths[0]));
-                    let sees = || sight.sees(at, depth, |_| false);
+                    let sees = || sight.sees(at, depth, None);
                     let shows = match self.hidden {
                         Hidden::Show => true,
                         Hidden::Omit => sight.shows(sees, (at, half), depth, [x, y]),
@@ -127,7 +127,7 @@ impl Mark {
             Shape::Disc { disc, depth, ink } => {
                 let mut seen = None;
                 disc.each(width, rows, |x, y, coverage| {
-                    let sees = || *seen.get_or_insert_with(|| sight.sees(disc.middle, depth, |_| false));
+                    let sees = || *seen.get_or_insert_with(|| sight.sees(disc.middle, depth, None));
                     if sight.shows(sees, (disc.middle, disc.radius), depth, [x, y]) {
                         reach(x, y, Fragment::new(ink, coverage, depth, true));
                     }

@@ -263,13 +263,14 @@ impl Surfaces {
         self.eye_from_world
     }
 
-    /// The entity and the number of the triangle in a pixel.
-    pub(crate) fn number_at(&self, x: u32, y: u32) -> Option<(Entity, u32)> {
-        if x >= self.size.x || y >= self.size.y {
-            return None;
-        }
-        let [object, triangle] = self.numbers[(y * self.size.x + x) as usize]?;
-        Some((self.objects.get(object as usize)?.entity, triangle))
+    /// The objects that pixels may show, in the order of their numbers.
+    pub(crate) fn entities(&self) -> impl Iterator<Item = Entity> + '_ {
+        self.objects.iter().map(|seen| seen.entity)
+    }
+
+    /// The numbers of the object and of the triangle in a pixel of the picture.
+    pub(crate) fn numbers_at(&self, x: u32, y: u32) -> Option<[u32; 2]> {
+        self.numbers[(y * self.size.x + x) as usize]
     }
 
     /// A direction of the world in eye space.
