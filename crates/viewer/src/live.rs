@@ -1,6 +1,7 @@
 //! The entities of the scene that is shown.
 
 use bevy_ecs::prelude::*;
+use halfway::lighting::Viewport;
 use halfway::prelude::*;
 use halfway::scene::{CameraEntry, LightEntry, LightKind, LightsEntry, SceneFile, Spawned, spawn, spawn_seen_from};
 use halfway::window::OrbitCamera;
@@ -11,6 +12,8 @@ use crate::error::ViewerError;
 /// The scene in the world.
 pub(crate) struct Live {
     pub(crate) spawned: Spawned,
+    /// The cameras that share the picture, each with its part of the whole; one that has it for itself has none.
+    pub(crate) parts: Vec<(Entity, Option<Viewport>)>,
     /// The scene as it was spawned, with the changes since.
     shown: SceneFile,
 }
@@ -25,7 +28,9 @@ impl Live {
         let spawned = spawned.map_err(ViewerError::Scene)?;
         // A scene without one leaves that of the scene before.
         world.insert_resource(ViewTolerance(shown.tolerance.unwrap_or(Tolerance::EXACT)));
-        Ok(Self { spawned, shown })
+        let part = |camera: &Entity| (*camera, world.get::<Viewport>(*camera).copied());
+        let parts = spawned.cameras.iter().map(part).collect();
+        Ok(Self { spawned, parts, shown })
     }
 
     /// Shows the document as it stands. Where a change needs a new scene, the camera stays where it is.

@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use egui::{Pos2, Rect, Vec2 as Points, pos2};
-use halfway::lighting::{Lens, Viewport};
+use halfway::lighting::{Lens, Part, Viewport};
 use halfway::prelude::*;
 
 /// The camera's picture on the window.
@@ -59,4 +59,18 @@ pub(crate) fn pixels_of(area: Rect, scale: f32) -> Viewport {
     let pixel = |at: f32| (at * scale).round().max(0.0) as u32;
     let [left, top, right, bottom] = [area.left(), area.top(), area.right(), area.bottom()].map(pixel);
     Viewport::pixels([left, top, right.saturating_sub(left).max(1), bottom.saturating_sub(top).max(1)])
+}
+
+/// A part of a picture, where the picture is a part of the window.
+pub(crate) fn within(part: Viewport, picture: Viewport) -> Viewport {
+    let Part::Pixels([left, top, width, height]) = picture.part else { return part };
+    let [x, y, width, height] = part.rectangle([width, height]).unwrap_or([0, 0, 1, 1]);
+    Viewport { part: Part::Pixels([left + x, top + y, width, height]), ..part }
+}
+
+/// A part of the window in points.
+pub(crate) fn points_of(part: Viewport, scale: f32) -> Rect {
+    let Part::Pixels(pixels) = part.part else { return Rect::ZERO };
+    let [left, top, width, height] = pixels.map(|pixels| pixels as f32 / scale);
+    Rect::from_min_size(pos2(left, top), Points::new(width, height))
 }

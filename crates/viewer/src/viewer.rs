@@ -26,7 +26,7 @@ use crate::paint::cpu::Painter;
 use crate::paint::gpu::PaintPass;
 use crate::panels::{self, Selected, look};
 use crate::pictures::{Drawing, Wanted};
-use crate::projected::{Projected, pixels_of};
+use crate::projected::{Projected, pixels_of, points_of, within};
 use crate::settings::Settings;
 use crate::split::{Split, Way, seen_by};
 use crate::times::Times;
@@ -339,19 +339,23 @@ impl SceneViewer {
 
     /// Has the camera draw between the panels, so that they hide nothing of the picture, and show at least as much as the
     /// scene's own picture does.
-    fn draw_in_area(&self, context: &Context, live: &Live, world: &mut World) {
+    ///
+    /// Cameras that share the picture share the place between the panels, and handles are those of the first one's part.
+    fn draw_in_area(&mut self, context: &Context, live: &Live, world: &mut World) {
         let camera = live.spawned.camera;
-        if live.spawned.cameras.len() > 1 {
+        let scale = context.pixels_per_point();
+        let area = pixels_of(self.area, scale);
+        if live.parts.len() > 1 {
+            for (camera, own) in &live.parts {
+                let part = own.map(|own| within(own, area));
+                give_part(*camera, if self.settings.panels { part } else { *own }, world);
+                if let (true, Some(part)) = (*camera == live.spawned.camera, part) {
+                    self.area = points_of(part, scale);
+                }
+            }
             return;
         }
-        let viewport = self.settings.panels.then(|| pixels_of(self.area, context.pixels_per_point()));
-        let now = world.get::<Viewport>(camera).copied();
-        if now != viewport {
-            match viewport {
-                Some(viewport) => drop(world.entity_mut(camera).insert(viewport)),
-                None => drop(world.entity_mut(camera).remove::<Viewport>()),
-            }
-        }
+        give_part(camera, self.settings.panels.then_some(area), world);
         let [width, height] = self.document.scene.size.map(|pixels| pixels as f32);
         if let Some(mut camera) = world.get_mut::<Camera>(camera) {
             let (Projection::Perspective { mut film, .. } | Projection::Orthographic { mut film, .. }) =
@@ -569,6 +573,17 @@ impl SceneViewer {
         if self.settings.remembers {
             self.settings.write();
         }
+    }
+}
+
+/// Has a camera draw into a part of the window, or all of it.
+fn give_part(camera: Entity, part: Option<Viewport>, world: &mut World) {
+    if world.get::<Viewport>(camera).copied() == part {
+        return;
+    }
+    match part {
+        Some(part) => drop(world.entity_mut(camera).insert(part)),
+        None => drop(world.entity_mut(camera).remove::<Viewport>()),
     }
 }
 

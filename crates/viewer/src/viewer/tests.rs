@@ -450,6 +450,31 @@ fn a_pixel_is_explained() {
 }
 
 #[test]
+fn cameras_that_share_the_picture_share_the_place_between_the_panels() {
+    let part = |from: f32| Some(halfway::lighting::Viewport::fractions([from, 0.0, 0.5, 1.0]));
+    let json = r#"{
+        "camera": {"position": [0, 1, 6], "viewport": {"fractions": [0.0, 0.0, 0.5, 1.0]}},
+        "cameras": [{"position": [0, 6, 1], "viewport": {"fractions": [0.5, 0.0, 0.5, 1.0]}}],
+        "objects": [{"mesh": {"box": {}}, "material": "brass"}]
+    }"#;
+    let shared = SceneFile::from_json(json, "two cameras").expect("it is valid");
+    let mut hands = Hands::new(shared);
+    let parts = |hands: &mut Hands| {
+        let live = hands.viewer.live.as_ref().unwrap();
+        let world = hands.app.world();
+        live.spawned.cameras.iter().map(|camera| world.get::<Viewport>(*camera).copied()).collect::<Vec<_>>()
+    };
+    let rectangles: Vec<[u32; 4]> =
+        parts(&mut hands).iter().map(|part| part.unwrap().rectangle([1280, 720]).unwrap()).collect();
+    let [left, right] = rectangles[..] else { panic!("{rectangles:?}") };
+    assert!(left[0] > 150 && left[0] + left[2] == right[0] && right[0] + right[2] < 1100, "{left:?} {right:?}");
+    assert_eq!(hands.viewer.area.left() as u32, left[0], "handles are the first one's");
+    hands.key(Key::P, Modifiers::NONE);
+    let own = |from: f32, order: i32| part(from).map(|part| part.with_order(order));
+    assert_eq!(parts(&mut hands), [own(0.0, 0), own(0.5, 1)], "without panels they have the window");
+}
+
+#[test]
 fn a_camera_is_turned_upright_and_saved_so() {
     let mut hands = Hands::new(scene(Vec::new()));
     hands.choose("Camera");
