@@ -33,23 +33,17 @@ impl Live {
         Ok(Self { spawned, parts, shown })
     }
 
-    /// Shows the document as it stands. Where a change needs a new scene, the camera stays where it is.
+    /// Shows the document as it stands. Where a change needs a new scene, the cameras stay where they are. Of several cameras
+    /// that share the picture only the first one can follow, so that they need one each time.
     pub(crate) fn follow(&mut self, document: &Document, world: &mut World) -> Result<(), ViewerError> {
-        if self.spawned.follow(&self.shown, &document.scene, world) {
+        if self.parts.len() < 2 && self.spawned.follow(&self.shown, &document.scene, world) {
             self.shown = document.scene.clone();
             return Ok(());
         }
         let mut anew = Self::new(document, world)?;
         std::mem::swap(self, &mut anew);
-        let before = anew.spawned.camera;
-        let place = (world.get::<Transform>(before).copied(), world.get::<OrbitCamera>(before).cloned());
-        let projection = world.get::<Camera>(before).map(|camera| camera.projection);
-        let camera = self.spawned.camera;
-        if let (Some(transform), Some(orbit)) = place {
-            world.entity_mut(camera).insert((transform, orbit));
-        }
-        if let (Some(mut camera), Some(projection)) = (world.get_mut::<Camera>(camera), projection) {
-            camera.projection = projection;
+        for (before, camera) in anew.spawned.cameras.iter().zip(&self.spawned.cameras) {
+            keep_place(*before, *camera, world);
         }
         anew.spawned.despawn(world);
         Ok(())
@@ -132,6 +126,18 @@ impl Live {
         let edited = edit(&mut list);
         scene.lights = Some(LightsEntry::List(list));
         edited
+    }
+}
+
+/// Puts a camera where another stands.
+fn keep_place(before: Entity, camera: Entity, world: &mut World) {
+    let place = (world.get::<Transform>(before).copied(), world.get::<OrbitCamera>(before).cloned());
+    let projection = world.get::<Camera>(before).map(|camera| camera.projection);
+    if let (Some(transform), Some(orbit)) = place {
+        world.entity_mut(camera).insert((transform, orbit));
+    }
+    if let (Some(mut camera), Some(projection)) = (world.get_mut::<Camera>(camera), projection) {
+        camera.projection = projection;
     }
 }
 

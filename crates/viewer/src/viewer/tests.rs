@@ -469,6 +469,11 @@ fn cameras_that_share_the_picture_share_the_place_between_the_panels() {
     let [left, right] = rectangles[..] else { panic!("{rectangles:?}") };
     assert!(left[0] > 150 && left[0] + left[2] == right[0] && right[0] + right[2] < 1100, "{left:?} {right:?}");
     assert_eq!(hands.viewer.area.left() as u32, left[0], "handles are the first one's");
+    // Both show a change of the scene.
+    hands.key(Key::E, Modifiers::NONE);
+    hands.frames(2);
+    let cameras = hands.viewer.live.as_ref().unwrap().spawned.cameras.clone();
+    assert!(cameras.iter().all(|camera| hands.app.world().entity(*camera).contains::<Edges>()));
     hands.key(Key::P, Modifiers::NONE);
     let own = |from: f32, order: i32| part(from).map(|part| part.with_order(order));
     assert_eq!(parts(&mut hands), [own(0.0, 0), own(0.5, 1)], "without panels they have the window");
