@@ -357,7 +357,7 @@ fn image_to_python<'py>(py: Python<'py>, values: &QuantityValues, channels: usiz
     }
 }
 
-/// What a picture has beside its colours.
+/// An output of a picture beside its colours.
 enum Output {
     Quantity(Quantity),
     /// A term of the light alone.

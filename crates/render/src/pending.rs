@@ -26,7 +26,7 @@ enum Pending {
     Together { size: UVec2, parts: Vec<(UVec2, PendingPicture)>, arrived: Vec<Option<Picture>> },
 }
 
-/// What a picture is finished for.
+/// The use that a picture is finished for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Destination {
     Taken,

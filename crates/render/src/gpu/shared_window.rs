@@ -23,6 +23,7 @@ pub(crate) fn present(
     mut times: ResMut<FrameTimes>,
     mut report: ResMut<FrameReport>,
     over: Option<ResMut<WindowPass>>,
+    mut between: Local<Option<Between>>,
     mut commands: Commands,
 ) {
     let picture = finished.picture.take();
@@ -32,9 +33,14 @@ pub(crate) fn present(
     }
     match times.at_display(|| surface.acquire_for_copies(&gpu)) {
         Ok(Some(texture)) => {
+            let drawn = (!surface.takes_copies()).then(|| Between::of(&mut between, &gpu, &texture.texture));
+            let window = drawn.as_ref().map_or(&texture.texture, |between| &between.texture);
             match picture {
-                Some(picture) => report.errors.extend(write(&gpu, picture, &texture.texture).err()),
-                None => copy_together(&gpu, (&views, &target), &texture.texture),
+                Some(picture) => report.errors.extend(write(&gpu, picture, window).err()),
+                None => copy_together(&gpu, (&views, &target), window),
+            }
+            if let Some(between) = drawn {
+                between.draw(&gpu, &texture.texture);
             }
             if let Some(mut over) = over {
                 over.draw(&gpu, &texture.texture);
@@ -43,6 +49,48 @@ pub(crate) fn present(
         }
         Ok(None) => {}
         Err(Lost) => commands.insert_resource(SurfaceLost),
+    }
+}
+
+/// A picture of the window's size that takes copies, and draws itself into a window that does not.
+pub(crate) struct Between {
+    texture: wgpu::Texture,
+    blitter: wgpu::util::TextureBlitter,
+    gpu: u64,
+}
+
+impl Between {
+    /// The one that is kept, or another where it does not fit the window.
+    fn of<'a>(kept: &'a mut Option<Self>, gpu: &Gpu, window: &wgpu::Texture) -> &'a Self {
+        let fits = |between: &Self| {
+            let texture = &between.texture;
+            between.gpu == gpu.id() && texture.size() == window.size() && texture.format() == window.format()
+        };
+        kept.take_if(|between| !fits(between));
+        kept.get_or_insert_with(|| {
+            let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("between"),
+                size: window.size(),
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: window.format(),
+                usage: wgpu::TextureUsages::COPY_DST
+                    | wgpu::TextureUsages::RENDER_ATTACHMENT
+                    | wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            });
+            let blitter = wgpu::util::TextureBlitter::new(&gpu.device, window.format());
+            Self { texture, blitter, gpu: gpu.id() }
+        })
+    }
+
+    fn draw(&self, gpu: &Gpu, window: &wgpu::Texture) {
+        let [from, to] =
+            [&self.texture, window].map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("window") });
+        self.blitter.copy(&gpu.device, &mut encoder, &from, &to);
+        gpu.queue.submit([encoder.finish()]);
     }
 }
 

@@ -12,6 +12,8 @@ pub struct SurfaceTarget {
     /// The number of its device.
     gpu: u64,
     formats: Vec<wgpu::TextureFormat>,
+    /// Whether pictures can be copied to it; OpenGL only draws.
+    takes_copies: bool,
     config: wgpu::SurfaceConfiguration,
     stale: bool,
     acquired: bool,
@@ -30,7 +32,9 @@ impl SurfaceTarget {
         let config = surface
             .get_default_config(adapter, size.x.max(1), size.y.max(1))
             .ok_or_else(|| RenderError::Device(format!("{} cannot present to this window", gpu.describe())))?;
-        Ok(Self { surface, gpu: gpu.id(), formats: capabilities.formats, config, stale: true, acquired: false })
+        let takes_copies = capabilities.usages.contains(wgpu::TextureUsages::COPY_DST);
+        let formats = capabilities.formats;
+        Ok(Self { surface, gpu: gpu.id(), formats, takes_copies, config, stale: true, acquired: false })
     }
 
     /// Follows the window to `size` physical pixels; a size of 0 (minimised) is ignored.
@@ -64,11 +68,16 @@ impl SurfaceTarget {
         self.config.format = format;
     }
 
-    /// The same for a picture that others are copied to.
+    pub(crate) fn takes_copies(&self) -> bool {
+        self.takes_copies
+    }
+
+    /// The same for a picture that others are copied to, where the surface takes copies.
     pub(crate) fn acquire_for_copies(&mut self, gpu: &Gpu) -> Result<Option<wgpu::SurfaceTexture>, Lost> {
-        let usage = self.config.usage | wgpu::TextureUsages::COPY_DST;
-        self.stale |= usage != self.config.usage;
-        self.config.usage = usage;
+        if self.takes_copies && !self.config.usage.contains(wgpu::TextureUsages::COPY_DST) {
+            self.config.usage |= wgpu::TextureUsages::COPY_DST;
+            self.stale = true;
+        }
         self.acquire(gpu)
     }
 

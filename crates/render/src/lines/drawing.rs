@@ -108,7 +108,7 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// What one thread sees of the surfaces of a picture.
+/// The view of one thread on the surfaces of a picture.
 pub(super) struct Sight<'a> {
     pub(super) drawing: &'a Drawing<'a>,
     /// The pixels asked for last, each at its number modulo [`KEPT`].

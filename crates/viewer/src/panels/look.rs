@@ -40,7 +40,7 @@ pub(crate) fn scene(ui: &mut Ui, scene: &mut SceneFile) -> bool {
     changed
 }
 
-/// What can be shown of a scene, by the names that files have, with a line for each.
+/// Lines that explain a scene, by the names that files have, with a sentence for each.
 const SHOWN: [(&str, &str); 5] = [
     ("axes", "The axes of the world: x red, y green, z blue"),
     ("normals", "The normals of vertices"),

@@ -490,7 +490,7 @@ fn a_camera_is_turned_upright_and_saved_so() {
     let world = hands.app.world();
     let up = world.get::<OrbitCamera>(camera).unwrap().orbit.up;
     assert_eq!((up, world.get::<Upright>(camera)), (Vec3::Z, Some(&Upright(Vec3::Z))));
-    // What the window's plugins do.
+    // The plugins of the window would do this.
     let transform = {
         let orbit = world.get::<OrbitCamera>(camera).unwrap().orbit;
         Transform::from_translation(orbit.eye()).with_rotation(orbit.rotation())
