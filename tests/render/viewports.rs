@@ -366,6 +366,69 @@ fn cameras_that_move_or_change_their_order_draw_as_if_new() {
     }
 }
 
+/// The frame of each camera is kept until its next turn. Objects have one pair of matrices for all of them.
+#[test]
+fn what_has_not_changed_is_kept_for_each_camera() {
+    let (mut stage, mut anew) = (Stage::new(SIZE.x, SIZE.y), Stage::new(SIZE.x, SIZE.y));
+    let mut sharers = sharers();
+    stage.set(&scene());
+    let mut cameras = share(&mut stage, &sharers);
+    let mut before = None;
+    let changed = |stage: &mut Stage, step: usize| {
+        let world = stage.world();
+        let objects: Vec<_> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
+        let lamps: Vec<_> = world.query_filtered::<Entity, With<PointLight>>().iter(world).collect();
+        let mut put = |entities: &[Entity], place: Transform| {
+            entities.iter().for_each(|&entity| _ = world.entity_mut(entity).insert(place));
+        };
+        match step {
+            // Objects stand, and their matrices are needed again.
+            2 => put(&lamps, Transform::from_xyz(-1.0, 1.0, 2.0)),
+            3 => objects.iter().for_each(|&object| _ = world.entity_mut(object).insert(other_material())),
+            // Out of sight.
+            5 => put(&objects, Transform::from_xyz(0.0, 0.0, 500.0)),
+            7 => put(&objects, rotated(-0.2, 0.3, 0.1)),
+            9 => _ = world.despawn(objects[0]),
+            _ => {}
+        }
+    };
+    for step in 0..11 {
+        match step {
+            4 => sharers[2].place.translation.x += 0.2,
+            // The last is drawn first, and last again after objects have come.
+            6 => sharers[2].viewport.order = -5,
+            8 => sharers[2].viewport.order = 0,
+            10 => {
+                // One goes, and comes as another.
+                let gone = cameras.remove(0);
+                stage.world().despawn(gone);
+                take(&mut stage, Pixels::Byte);
+                cameras.insert(0, stage.spawn(sharers[0].bundle()));
+            }
+            _ => {}
+        }
+        for (&camera, sharer) in cameras.iter().zip(&sharers) {
+            let mut camera = stage.world().entity_mut(camera);
+            if camera.get() != Some(&sharer.place) || camera.get() != Some(&sharer.viewport) {
+                camera.insert((sharer.place, sharer.viewport));
+            }
+        }
+        changed(&mut stage, step);
+        let shared = take(&mut stage, Pixels::Byte);
+        assert_eq!(stage.report().matrices == 0, [1, 2, 3, 5, 6].contains(&step), "in step {step}");
+        let of_last = part(&shared, sharers[2].part());
+        let differs = std::mem::replace(&mut before, Some(of_last.clone())) != Some(of_last);
+        assert_eq!(differs, [0, 2, 3, 4, 5, 7, 9].contains(&step), "step {step} shows");
+        anew.set(&scene());
+        (0..=step).for_each(|step| changed(&mut anew, step));
+        share(&mut anew, &sharers);
+        assert!(take(&mut anew, Pixels::Byte) == shared, "after step {step}");
+        // Nothing has changed since.
+        assert!(take(&mut stage, Pixels::Byte) == shared, "again after step {step}");
+        assert_eq!(stage.report().matrices, 0, "again after step {step}");
+    }
+}
+
 #[test]
 fn quantities_are_those_of_the_camera_that_shows_a_pixel() {
     let mut stage = Stage::new(SIZE.x, SIZE.y);

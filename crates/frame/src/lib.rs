@@ -6,6 +6,7 @@
 //! two.
 
 pub mod batch;
+mod camera_frame;
 pub mod error;
 pub mod geometry;
 pub mod lights;
@@ -20,4 +21,5 @@ pub mod values;
 pub mod view;
 pub mod why_empty;
 
+pub use camera_frame::CameraFrame;
 pub use plugin::{FramePlugin, FurtherCamera, ReadCamera, add_backend, add_further_camera};

@@ -15,7 +15,7 @@ use crate::times;
 use crate::values::{DrawsOnce, FrameValues, WaitsForLevels};
 use crate::view::camera::{self, Epoch, PictureSize, View};
 use crate::view::looks::{self, Look, Looks};
-use crate::view::matrices::{ModelView, NormalMatrix};
+use crate::view::matrices::{MatricesOf, ModelView, NormalMatrix};
 use crate::view::select::{self, Representatives, Selected, Visible};
 use bevy_app::{App, Plugin};
 use bevy_ecs::component::Mutable;
@@ -55,6 +55,7 @@ impl Plugin for FramePlugin {
             .init_resource::<View>()
             .init_resource::<Visible>()
             .init_resource::<Representatives>()
+            .init_resource::<MatricesOf>()
             .init_resource::<Selected>()
             .init_resource::<Lights>()
             .init_resource::<Surroundings>()
@@ -79,10 +80,12 @@ impl Plugin for FramePlugin {
     }
 }
 
-/// The schedule that makes the frame of each camera after the first, where several share a picture. It has the same sets;
-/// whoever runs it says whose [turn](CameraTurn) it is.
+/// The schedule that makes the frame of the camera with this number, from 1 on, where several share a picture. It has the
+/// sets of that which makes the first one's; whoever runs it says whose [turn](CameraTurn) it is.
+///
+/// Each of these cameras has a schedule of its own, since a system looks for changes since it ran last.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct FurtherCamera;
+pub struct FurtherCamera(pub u32);
 
 /// Adds the systems that make a camera's frame.
 fn add_stages(app: &mut App, schedule: InternedScheduleLabel) -> ScheduleConfigs<InternedSystemSet> {
@@ -99,9 +102,9 @@ fn add_stages(app: &mut App, schedule: InternedScheduleLabel) -> ScheduleConfigs
     (View, Select, Choose, Illuminate, Batch, Upload, Draw, Deliver).chain()
 }
 
-/// Adds the stages of a frame up to its draws to [`FurtherCamera`].
-pub fn add_further_camera(app: &mut App) {
-    let schedule = FurtherCamera.intern();
+/// Adds the stages of a frame up to its draws to the schedule of a further camera.
+pub fn add_further_camera(app: &mut App, camera: FurtherCamera) {
+    let schedule = camera.intern();
     let order = add_stages(app, schedule);
     app.configure_sets(schedule, order);
     times::add_clocks_of_further_camera(app, schedule);

@@ -587,6 +587,7 @@ impl<T: Real> Lens<T> {
     }
 
     /// Whether a sphere of eye space may reach the picture. Never false for one that does.
+    #[inline]
     pub fn sees(&self, center: [T; 3], radius: T) -> bool {
         let depth = -center[2];
         let sides = [0, 1].iter().all(|&axis| {

@@ -14,7 +14,7 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{InternedScheduleLabel, ScheduleLabel};
 use halfway_frame::report::FrameReport;
 use halfway_frame::sets::RenderSet;
-use halfway_frame::{FramePlugin, FurtherCamera, ReadCamera, add_further_camera};
+use halfway_frame::{FramePlugin, ReadCamera, add_further_camera};
 
 /// Adds the stages of a frame, for both renderers.
 pub(crate) fn add_drawers(app: &mut App, schedule: InternedScheduleLabel) {
@@ -28,7 +28,7 @@ pub(crate) fn add_drawers(app: &mut App, schedule: InternedScheduleLabel) {
             (
                 headless::measure.in_set(RenderSet::View).before(views::begin),
                 views::begin.in_set(RenderSet::View).before(ReadCamera),
-                (make_further_camera, views::draw_further).chain().in_set(RenderSet::Deliver).run_if(Views::are_there),
+                (make_further_cameras, views::draw_further).chain().in_set(RenderSet::Deliver).run_if(Views::are_there),
                 (open, replaced::forget).chain().in_set(RenderSet::View).after(ReadCamera),
             ),
         );
@@ -37,18 +37,20 @@ pub(crate) fn add_drawers(app: &mut App, schedule: InternedScheduleLabel) {
     gpu::plugin::add(app, schedule);
 }
 
-/// Makes the schedule of the cameras after the first, unless it is there. Most Apps never need it.
-fn make_further_camera(mut schedules: ResMut<Schedules>) {
-    if schedules.contains(FurtherCamera) {
-        return;
+/// Makes the schedules of the cameras after the first that are not there. Most Apps never need one.
+fn make_further_cameras(views: Res<Views>, mut schedules: ResMut<Schedules>) {
+    for camera in views.further() {
+        if schedules.contains(camera) {
+            continue;
+        }
+        let mut app = App::empty();
+        add_further_camera(&mut app, camera);
+        cpu::add_stages(&mut app, camera.intern());
+        #[cfg(feature = "wgpu")]
+        gpu::plugin::add_stages(&mut app, camera.intern());
+        let made = app.world_mut().resource_mut::<Schedules>().remove(camera);
+        made.and_then(|schedule| schedules.insert(schedule));
     }
-    let mut app = App::empty();
-    add_further_camera(&mut app);
-    cpu::add_stages(&mut app, FurtherCamera.intern());
-    #[cfg(feature = "wgpu")]
-    gpu::plugin::add_stages(&mut app, FurtherCamera.intern());
-    let made = app.world_mut().resource_mut::<Schedules>().remove(FurtherCamera);
-    made.and_then(|schedule| schedules.insert(schedule));
 }
 
 /// Opens an adapter for headless pictures unless one is open. A failure is reported and retried in every frame, so that

@@ -5,11 +5,9 @@ use crate::cpu::canvas::{Canvas, CanvasTarget};
 use crate::gpu::{attachments::Target, timer::GpuTimer};
 use bevy_ecs::prelude::*;
 use bevy_math::UVec2;
-use halfway_frame::FurtherCamera;
-use halfway_frame::passes::Passes;
 use halfway_frame::report::FrameReport;
-use halfway_frame::view::camera::{PictureSize, View};
-use halfway_frame::view::select::Visible;
+use halfway_frame::view::camera::PictureSize;
+use halfway_frame::{CameraFrame, FurtherCamera};
 use halfway_lighting::{CameraTurn, Load, SharedPart, SharingCameras};
 
 /// The cameras that share the picture of the frame, in the order in which they are drawn. Empty where a camera has the
@@ -40,15 +38,18 @@ pub(crate) struct Place {
 
 #[derive(Default)]
 struct Left {
-    view: View,
-    visible: Visible,
-    passes: Passes,
+    frame: CameraFrame,
     canvas: Canvas,
     #[cfg(feature = "wgpu")]
     target: Target,
 }
 
 impl Views {
+    /// The schedules of the cameras after the first.
+    pub(crate) fn further(&self) -> impl Iterator<Item = FurtherCamera> + use<> {
+        (1..self.each.len() as u32).map(FurtherCamera)
+    }
+
     /// Whether cameras share the picture.
     pub(crate) fn are_there(views: Option<Res<Self>>) -> bool {
         views.is_some_and(|views| !views.each.is_empty())
@@ -121,7 +122,9 @@ pub(crate) fn begin(
         CameraView { camera, place: Place { corner: corner.into(), size: size.into(), load }, left }
     };
     views.each = parts.into_iter().map(view).collect();
-    if let Some(first) = views.each.first() {
+    if let Some(first) = views.each.first_mut() {
+        // It has been another number's, if the order has changed, and is too old then.
+        first.left = Left::default();
         turn.0 = Some(first.camera);
         size.0 = first.place.size;
     }
@@ -131,11 +134,10 @@ pub(crate) fn begin(
 pub(crate) fn draw_further(world: &mut World) {
     #[cfg(feature = "wgpu")]
     let timer = world.remove_resource::<GpuTimer>();
-    let count = world.resource::<Views>().each.len();
-    for number in 1..count {
-        in_turn(world, number, |world, _| {
+    for further in world.resource::<Views>().further() {
+        in_turn(world, further.0 as usize, |world, _| {
             let first = world.resource::<FrameReport>().clone();
-            world.run_schedule(FurtherCamera);
+            world.run_schedule(further);
             let mut report = world.resource_mut::<FrameReport>();
             let further = std::mem::replace(&mut *report, first);
             report.add(further);
@@ -215,9 +217,7 @@ fn exchange(world: &mut World, number: usize) {
     }
     world.resource_scope(|world, mut views: Mut<Views>| {
         let left = &mut views.each[number].left;
-        swap(world, &mut left.view);
-        swap(world, &mut left.visible);
-        swap(world, &mut left.passes);
+        left.frame.exchange(world);
         swap(world, &mut left.canvas);
         #[cfg(feature = "wgpu")]
         swap(world, &mut left.target);

@@ -17,7 +17,7 @@ use crate::report::FrameReport;
 use crate::values::{FrameValues, PixelValues};
 use crate::view::camera::View;
 use crate::view::looks::{Look, LookBits, Looks};
-use crate::view::matrices::{ModelView, NormalMatrix};
+use crate::view::matrices::{Matrices, MatricesOf, ModelView, NormalMatrix, make_anew};
 use crate::view::select::Selected;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
@@ -88,9 +88,9 @@ pub(crate) type Places = (&'static mut Look, &'static ModelView, &'static Normal
 #[expect(clippy::too_many_arguments, reason = "a system takes each resource as a parameter")]
 pub fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
     objects: ShownObjects,
-    mut places: Query<Places>,
+    mut places: ParamSet<(Query<Places>, Query<Matrices>)>,
     lights: Res<Lights>,
-    (values, selected): (Res<FrameValues>, Res<Selected>),
+    (values, selected, mut matrices_of): (Res<FrameValues>, Res<Selected>, ResMut<MatricesOf>),
     mut looks: ResMut<Looks>,
     mut backend: ResMut<B>,
     mut lit: ResMut<LitPatches>,
@@ -125,7 +125,10 @@ pub fn illuminate<B: Backend + Resource<Mutability = Mutable>>(
             share: values.share(),
         };
         let errors = report.errors.len();
-        lit.add_all(&objects, (&mut places, &mut looks), shared, &mut *backend, &mut report.errors);
+        if std::mem::replace(&mut matrices_of.0, view.epoch) != view.epoch {
+            make_anew(view, objects.visible(), places.p1());
+        }
+        lit.add_all(&objects, (&mut places.p0(), &mut looks), shared, &mut *backend, &mut report.errors);
         lit.made_of = (report.errors.len() == errors).then_some(made_of);
     }
     lit.report(&mut report);

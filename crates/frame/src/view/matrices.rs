@@ -1,11 +1,13 @@
 //! Model-view and normal matrices.
 
+use crate::view::camera::View;
 use bevy_ecs::prelude::*;
 use bevy_math::{Affine3A, DAffine3, DMat3, DVec3, Mat3};
 use bevy_transform::components::GlobalTransform;
 
 /// `eye_from_model` of an object, composed in f64 relative to the camera and rounded once.
-/// Holds for visible objects after [`RenderSet::Select`](crate::sets::RenderSet::Select).
+/// Holds for visible objects after [`RenderSet::Select`](crate::sets::RenderSet::Select). Where several cameras share the
+/// picture, it is of the one for which the matrices were made last: while nothing moves, none are made.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct ModelView {
     /// Model to eye.
@@ -19,6 +21,7 @@ pub struct ModelView {
 
 impl ModelView {
     /// Of an object with this transform, as the view with this epoch sees it; and its normal matrix.
+    #[inline(always)]
     pub(crate) fn of_object(
         eye_from_model: &DAffine3,
         lengths: Lengths,
@@ -35,6 +38,7 @@ impl ModelView {
         self.made_from == Some((epoch, transform.affine()))
     }
 
+    #[inline(always)]
     fn with_lengths(eye_from_model: &DAffine3, lengths: Lengths) -> Self {
         let DAffine3 { matrix3: m, translation } = eye_from_model;
         Self {
@@ -69,7 +73,28 @@ pub(super) fn is_flat_twice(m: &DMat3) -> bool {
     [x.cross(y), y.cross(z), z.cross(x)].iter().all(|cofactors| *cofactors == DVec3::ZERO)
 }
 
+/// The [epoch](crate::view::camera::View::epoch) of the view that the matrices of the visible objects are of.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct MatricesOf(pub(crate) u64);
+
+/// The matrices of an object, and what they are made of.
+pub(crate) type Matrices = (&'static GlobalTransform, &'static mut ModelView, &'static mut NormalMatrix);
+
+/// Makes the matrices of visible objects, where those that they have are another camera's.
+#[cold]
+pub(crate) fn make_anew(view: &View, visible: &[Entity], mut objects: Query<Matrices>) {
+    for &object in visible {
+        let Ok((transform, mut model_view, mut normal_matrix)) = objects.get_mut(object) else { continue };
+        if !model_view.is_of(view.epoch, transform) {
+            let eye_from_model = compose(&view.eye_from_world, transform);
+            let lengths = Lengths::new(&eye_from_model.matrix3);
+            (*model_view, *normal_matrix) = ModelView::of_object(&eye_from_model, lengths, view.epoch, transform);
+        }
+    }
+}
+
 /// `eye_from_model` in f64. Both transforms are world-sized, so only their difference is rounded.
+#[inline(always)]
 pub(super) fn compose(eye_from_world: &DAffine3, world_from_model: &GlobalTransform) -> DAffine3 {
     let affine = world_from_model.affine();
     let world_from_model = DAffine3 {
@@ -88,12 +113,14 @@ pub(super) fn compose(eye_from_world: &DAffine3, world_from_model: &GlobalTransf
 pub(crate) struct Lengths([f64; 3]);
 
 impl Lengths {
+    #[inline(always)]
     pub(super) fn new(m: &DMat3) -> Self {
         Self([m.x_axis.length(), m.y_axis.length(), m.z_axis.length()])
     }
 
     /// An upper bound of how much the matrix stretches a length: the Frobenius norm, or the exact factor
     /// where the columns are orthogonal, as they are without shear.
+    #[inline(always)]
     pub(super) fn largest_scale(self, m: &DMat3) -> f64 {
         let Self([x, y, z]) = self;
         let largest = x.max(y).max(z);
@@ -103,6 +130,7 @@ impl Lengths {
 
     /// Whether the matrix turns windings over: its determinant is negative. Transforms are kept in f32, so a determinant
     /// of unit columns within 8 ε of 0 is a rounding error; such a matrix flattens, and counts as not mirroring.
+    #[inline(always)]
     fn is_mirror(self, m: &DMat3) -> bool {
         let Self([x, y, z]) = self;
         // Numbers of f32, so that no product of three leaves f64.
@@ -111,6 +139,7 @@ impl Lengths {
 }
 
 /// Whether the columns are equally long and at right angles, up to the rounding of transforms in f32.
+#[inline(always)]
 fn keeps_angles(m: &DMat3) -> bool {
     let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
     let square = x.length_squared();
@@ -125,6 +154,7 @@ pub fn normal_matrix(m: &DMat3) -> Mat3 {
     signed_cofactors(m, Lengths::new(m).is_mirror(m))
 }
 
+#[inline(always)]
 fn signed_cofactors(m: &DMat3, mirrored: bool) -> Mat3 {
     let largest = |m: &DMat3| {
         let DVec3 { x, y, z } = m.x_axis.abs().max(m.y_axis.abs()).max(m.z_axis.abs());

@@ -4,7 +4,7 @@ use crate::error::{RenderError, bad_transform, label};
 use crate::report::FrameReport;
 use crate::view::camera::View;
 use crate::view::looks::{Look, Looks, any_newer};
-use crate::view::matrices::{Lengths, ModelView, NormalMatrix, compose, is_flat_twice};
+use crate::view::matrices::{Lengths, MatricesOf, ModelView, NormalMatrix, compose, is_flat_twice};
 use bevy_ecs::change_detection::{ContiguousComponentTicksMut, ContiguousMut, ContiguousRef, Tick};
 use bevy_ecs::prelude::*;
 use bevy_transform::components::GlobalTransform;
@@ -75,7 +75,7 @@ pub(crate) fn select(
     mut selected: ResMut<Selected>,
     mut view: ResMut<View>,
     (mut visible, mut representatives): (ResMut<Visible>, ResMut<Representatives>),
-    mut report: ResMut<FrameReport>,
+    (mut matrices_of, mut report): (ResMut<MatricesOf>, ResMut<FrameReport>),
 ) {
     let selected = &mut *selected;
     selected.frame += 1;
@@ -91,7 +91,7 @@ pub(crate) fn select(
         SeenIn { epoch: view.epoch, lens: view.lens, has_surfaces: of_camera.is_none_or(|edges| edges.surface) };
     let is_shown = shown.by_entity();
     let before = std::mem::replace(&mut selected.seen_in, (!shown.hides_any()).then_some(seen_in));
-    let keeps = selected.seen_in == before && before.is_some() && !meshes.is_changed();
+    let mut keeps = selected.seen_in == before && before.is_some() && !meshes.is_changed();
     // All of the components are kept in tables.
     let Ok(tables) = objects.contiguous_iter_mut() else { return };
     let mut tables: Vec<Table> = tables.map(Table::new).collect();
@@ -101,8 +101,12 @@ pub(crate) fn select(
     }
     let as_many = selected.parts.len() == parts.len();
     selected.parts.resize_with(parts.len(), Seen::default);
+    if keeps && matrices_of.0 != view.epoch {
+        // They are another camera's, so that all are made anew unless none is needed.
+        keeps = as_many && parts.iter().zip(&selected.parts).all(|(rows, seen)| rows.are_those_of(seen));
+    }
     let look_at = |(rows, seen): (&mut Rows, &mut Seen)| {
-        seen.is_kept = keeps && !rows.have_changed && seen.entities == rows.entities;
+        seen.is_kept = keeps && rows.are_those_of(seen);
         if seen.is_kept {
             seen.matrices = 0;
         } else {
@@ -115,6 +119,9 @@ pub(crate) fn select(
         parts.par_iter_mut().zip(&mut selected.parts).for_each(look_at);
     }
     let mut stands = as_many && selected.parts.iter().all(|seen| seen.is_kept);
+    if !stands {
+        matrices_of.0 = view.epoch;
+    }
     selected.report(&names, &mut view, &mut report);
     stands &=
         selected.changes == looks.changes && visible.0.iter().eq(selected.visible.iter().map(|(_, object, _)| object));
@@ -334,6 +341,11 @@ impl Seen {
 }
 
 impl Rows<'_> {
+    /// Whether they are the rows that were looked at, and nothing that decides what is seen has changed.
+    fn are_those_of(&self, seen: &Seen) -> bool {
+        !self.have_changed && seen.entities == self.entities
+    }
+
     /// Looks at all of them, and makes the matrices of those that are seen.
     fn see(
         &mut self,
