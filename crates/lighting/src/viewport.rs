@@ -54,7 +54,7 @@ pub enum Load {
     #[default]
     Clear,
     /// With what is there: the camera's background and sky are not drawn. In a texture, the depth that is given hides
-    /// what lies behind it. In a [`Viewport`], pictures that are taken keep what is there; windows clear.
+    /// what lies behind it.
     Keep,
 }
 
