@@ -26,7 +26,7 @@ pub(crate) struct ExplainArgs {
     /// Print JSON instead of lines
     #[arg(long)]
     json: bool,
-    /// Print an align* block of LaTeX (amsmath) instead of lines
+    /// Print align* blocks of LaTeX (amsmath) instead of lines
     #[arg(long, conflicts_with = "json")]
     latex: bool,
 }

@@ -42,14 +42,19 @@ fn a_pixel_is_explained_as_text_json_and_latex() {
     assert_eq!(light["name"], "lamp_1");
     assert!((light["way"]["attenuation"].as_f64().expect("a number") - 0.5).abs() < 1e-12);
     let latex = succeeds(&folder, &[&common[..], &["--latex"]].concat());
-    let lines: Vec<&str> = latex.lines().collect();
-    assert_eq!((lines.first(), lines.last()), (Some(&"\\begin{align*}"), Some(&"\\end{align*}")));
-    // Each line but the last ends one of the block, and has one place to be aligned at.
-    for line in &lines[1..lines.len() - 1] {
-        assert_eq!(line.matches('&').count(), 1, "{line}");
-        assert_eq!(line.matches('{').count(), line.matches('}').count(), "{line}");
+    // A heading or several begin a block, and each line but the last ends one and has one place to be aligned at.
+    let blocks: Vec<&str> = latex.trim_end().split_terminator("\n\\end{align*}").collect();
+    assert!(blocks.len() >= 3, "pixel and surface, lamp, sum: {latex}");
+    for block in blocks {
+        let block = block.trim_start().strip_prefix("\\begin{align*}\n").expect("a block");
+        assert!(block.starts_with("&\\textbf{"), "{block}");
+        let lines: Vec<&str> = block.split(" \\\\\n").collect();
+        assert_eq!(lines.len(), block.lines().count(), "{block}");
+        for line in lines {
+            assert_eq!(line.matches('&').count(), 1, "{line}");
+            assert_eq!(line.matches('{').count(), line.matches('}').count(), "{line}");
+        }
     }
-    assert!(lines[1..lines.len() - 2].iter().all(|line| line.ends_with(" \\\\")), "{latex}");
     assert!(latex.contains("lamp\\_1") && latex.contains("I_{d,1} &= \\mathrm{att}_{1}\\,k_d"), "{latex}");
 }
 

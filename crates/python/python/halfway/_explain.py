@@ -8,7 +8,7 @@ from typing import Any
 class Explanation(dict[str, Any]):
     """How a pixel came to its colour: what `halfway explain --json` prints, as a dictionary.
 
-    `text` has it as lines to read, `latex` as an `align*` block. In a notebook the block is typeset.
+    `text` has it as lines to read, `latex` as `align*` blocks. In a notebook they are typeset.
     """
 
     text: str

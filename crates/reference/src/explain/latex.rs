@@ -6,8 +6,9 @@ use super::numbers::{self, is_black};
 use super::{ExplainedLayer, ExplainedLight, ExplainedPoint, Explanation, LightWay, shading_name};
 
 impl Explanation {
-    /// One `align*` block, which needs the package `amsmath`. Colours are (r, g, b), and their products are channel by
-    /// channel. Of several samples the first is explained, and the others are given with their colours.
+    /// `align*` blocks, one a surface, corner or light, which need the package `amsmath`. Colours are (r, g, b), and
+    /// their products are channel by channel. Of several samples the first is explained, and the others are given with
+    /// their colours. Lines are broken where they would be wider than the text of an article on a letter or an A4.
     pub fn to_latex(&self) -> String {
         let mut lines = Lines::default();
         let [x, y] = self.pixel;
@@ -26,37 +27,95 @@ impl Explanation {
             }
         }
         lines.end(self);
-        lines.block()
+        lines.blocks()
     }
 }
 
-/// The lines of the block.
+/// The most that a line may have of [`width`]: in an article of 10 points, whose text is 345 points wide, a unit takes
+/// 4.5 points.
+const WIDEST: usize = 72;
+
+/// Where a line may be broken: what stands there when it is not.
+#[derive(Clone, Copy)]
+enum Joint {
+    Comma,
+    Equals,
+    Plus,
+}
+
+impl Joint {
+    fn unbroken(self) -> &'static str {
+        match self {
+            Self::Comma => ",\\quad ",
+            Self::Equals => " = ",
+            Self::Plus => " + ",
+        }
+    }
+
+    /// The end of the line before, and the begin of the next.
+    fn broken(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Comma => (",", "&\\quad "),
+            Self::Equals => ("", "&= "),
+            Self::Plus => ("", "&\\quad + "),
+        }
+    }
+}
+
+/// The lines of the blocks, and how many of them are in those before the last.
 #[derive(Default)]
-struct Lines(Vec<String>);
+struct Lines {
+    lines: Vec<String>,
+    blocks: Vec<usize>,
+    is_heading: bool,
+}
 
 impl Lines {
-    /// A line of words.
+    /// A line of words. It begins a block, for pages are broken between blocks only, unless one stands before it.
     fn say(&mut self, words: &str) {
-        self.0.push(format!("&\\textbf{{{}}}", escaped(words)));
+        if !self.is_heading {
+            self.blocks.push(self.lines.len());
+        }
+        self.lines.push(format!("&\\textbf{{{}}}", escaped(words)));
+        self.is_heading = true;
     }
 
     /// `left = a = b …`
     fn equal(&mut self, left: &str, right: &[String]) {
-        self.0.push(format!("{left} &= {}", right.join(" = ")));
+        let Some((first, others)) = right.split_first() else { return };
+        self.broken(format!("{left} &= {first}"), others.iter().map(|it| (Joint::Equals, it.clone())));
     }
 
     /// Several equations in one line.
     fn row(&mut self, equations: &[(String, String)]) {
         let Some(((left, right), others)) = equations.split_first() else { return };
-        let mut line = format!("{left} &= {right}");
-        for (left, right) in others {
-            line.extend([",\\quad ", left, " = ", right]);
-        }
-        self.0.push(line);
+        let others = others.iter().map(|(left, right)| (Joint::Comma, format!("{left} = {right}")));
+        self.broken(format!("{left} &= {right}"), others);
     }
 
-    fn block(&self) -> String {
-        format!("\\begin{{align*}}\n{}\n\\end{{align*}}", self.0.join(" \\\\\n"))
+    /// A line that is broken where it would be too wide.
+    fn broken(&mut self, first: String, others: impl Iterator<Item = (Joint, String)>) {
+        let mut line = first;
+        for (joint, part) in others {
+            let unbroken = joint.unbroken();
+            if width(&line) + width(unbroken) + width(&part) <= WIDEST {
+                line.extend([unbroken, &part]);
+            } else {
+                let (end, begin) = joint.broken();
+                self.lines.push(line + end);
+                line = format!("{begin}{part}");
+            }
+        }
+        self.lines.push(line);
+        self.is_heading = false;
+    }
+
+    fn blocks(&self) -> String {
+        let ends = self.blocks[1..].iter().copied().chain([self.lines.len()]);
+        let block = |(begin, end): (&usize, usize)| {
+            format!("\\begin{{align*}}\n{}\n\\end{{align*}}", self.lines[*begin..end].join(" \\\\\n"))
+        };
+        self.blocks.iter().zip(ends).map(block).collect::<Vec<_>>().join("\n")
     }
 
     fn layer(&mut self, layer: &ExplainedLayer, whole: &Explanation) {
@@ -68,15 +127,10 @@ impl Lines {
         self.equal("\\mathbf{n}", &[vector(layer.normal)]);
         let material = &layer.material;
         if layer.lit {
-            self.0.push(format!(
-                "k_a &= {},\\quad k_d = {},\\quad k_s = {},\\quad k_e = {},\\quad {} = {}",
-                given(material.ka),
-                given(material.kd),
-                given(material.ks),
-                given(material.ke),
-                exponent(layer),
-                short(material.shininess)
-            ));
+            let colors = [("k_a", material.ka), ("k_d", material.kd), ("k_s", material.ks), ("k_e", material.ke)];
+            let colors = colors.map(|(name, color)| (name.to_owned(), given(color)));
+            let exponent = (exponent(layer).to_owned(), short(material.shininess));
+            self.row(&colors.into_iter().chain([exponent]).collect::<Vec<_>>());
             let steady = layer.points.iter().flat_map(|point| &point.lights).any(|light| light.is_steady);
             let sum = if steady { "k_a \\Bigl(G_a + \\sum_i L_{a,i}\\Bigr)" } else { "k_a\\, G_a" };
             self.equal("G_a", &[given(whole.global_ambient)]);
@@ -152,8 +206,8 @@ impl Lines {
         }
         let facing = format!("\\mathbf{{n}}\\cdot\\mathbf{{l}}_{{{i}}}");
         if way.is_behind {
-            let n_dot_l = scalar(way.n_dot_l);
-            self.0.push(format!("{facing} &= {n_dot_l}\\quad\\text{{(behind the surface: no diffuse, no specular)}}"));
+            let behind = "\\text{behind the surface: no diffuse, no specular}".to_owned();
+            self.broken(format!("{facing} &= {}", scalar(way.n_dot_l)), std::iter::once((Joint::Comma, behind)));
             return;
         }
         self.equal(&facing, &[scalar(way.n_dot_l)]);
@@ -196,7 +250,9 @@ impl Lines {
             }
             let weighted =
                 corners.iter().map(|(weight, sums)| format!("{}\\cdot{}", scalar(*weight), color(sums.each()[k])));
-            self.equal(&format!("I_{name}"), &[weighted.collect::<Vec<_>>().join(" + ")]);
+            let mut parts = weighted.map(|part| (Joint::Plus, part));
+            let Some((_, first)) = parts.next() else { continue };
+            self.broken(format!("I_{name} &= {first}"), parts);
         }
     }
 
@@ -209,25 +265,26 @@ impl Lines {
         }
         if !layer.factors.are_one() {
             let it = &layer.factors;
-            self.say("Factors of images: of ambient and diffuse, of occlusion, of specular, of emission");
+            self.say("Factors of images");
             let surface = [0, 1, 2].map(|k| it.color[k] * it.solid[k]);
-            self.0.push(format!(
-                "&{},\\quad {},\\quad {},\\quad {}",
-                color(surface),
-                scalar(it.occlusion),
-                color(it.specular),
-                color(it.emission)
-            ));
+            for (of, factor) in [
+                ("ambient and diffuse", color(surface)),
+                ("occlusion", scalar(it.occlusion)),
+                ("specular", color(it.specular)),
+                ("emission", color(it.emission)),
+            ] {
+                self.broken(format!("&\\text{{of {of}: }}{factor}"), std::iter::empty());
+            }
         }
-        let parts = layer.sums.each().map(color).join(" + ");
-        self.equal(
-            "I",
-            &[
-                "I_a + I_d + I_s + k_e".to_owned(),
-                format!("{parts} + {}", color(layer.emission)),
-                color(layer.intensity),
-            ],
-        );
+        let [ambient, diffuse, specular] = layer.sums.each().map(color);
+        let parts = [
+            (Joint::Equals, ambient),
+            (Joint::Plus, diffuse),
+            (Joint::Plus, specular),
+            (Joint::Plus, color(layer.emission)),
+            (Joint::Equals, color(layer.intensity)),
+        ];
+        self.broken("I &= I_a + I_d + I_s + k_e".to_owned(), parts.into_iter());
         let mut written = layer.intensity;
         if whole.clamps_surfaces && written.iter().any(|channel| *channel > 1.0) {
             written = written.map(|channel| channel.min(1.0));
@@ -235,8 +292,9 @@ impl Lines {
         }
         if layer.opacity < 1.0 {
             let [opacity, rest] = [layer.opacity, 1.0 - layer.opacity].map(scalar);
-            let blend = format!("{opacity}\\cdot{} + {rest}\\cdot{}", color(written), color(layer.behind));
-            self.equal("I_b", &[blend, color(layer.blended)]);
+            let parts =
+                [(Joint::Plus, format!("{rest}\\cdot{}", color(layer.behind))), (Joint::Equals, color(layer.blended))];
+            self.broken(format!("I_b &= {opacity}\\cdot{}", color(written)), parts.into_iter());
         }
     }
 
@@ -299,6 +357,35 @@ fn typeset(numbers: &str) -> String {
     numbers.split(", ").map(one).collect::<Vec<_>>().join(",\\ ")
 }
 
+/// About how wide a text is printed, in digits: a sign between two numbers has room around it, other commands and
+/// characters are as wide as a digit.
+fn width(latex: &str) -> usize {
+    let mut characters = latex.chars().peekable();
+    let mut width = 0;
+    while let Some(c) = characters.next() {
+        match c {
+            '\\' => {
+                let mut name = String::new();
+                while let Some(letter) = characters.next_if(char::is_ascii_alphabetic) {
+                    name.push(letter);
+                }
+                width += match &*name {
+                    "quad" => 3,
+                    "cdot" => 2,
+                    // They only say how the words after them are set.
+                    "mathrm" | "mathbf" | "text" | "textbf" | "Bigl" | "Bigr" | "bigl" | "bigr" => 0,
+                    "" => usize::from(characters.next().is_some_and(|c| !matches!(c, ',' | ' '))),
+                    _ => 1,
+                };
+            }
+            '{' | '}' | '^' | '_' | '&' | ' ' => {}
+            '+' | '=' => width += 3,
+            _ => width += 1,
+        }
+    }
+    width
+}
+
 /// Words without characters that LaTeX takes as commands; others than those of ASCII are kept where LaTeX has them.
 fn escaped(words: &str) -> String {
     let mut text = String::new();
@@ -312,4 +399,43 @@ fn escaped(words: &str) -> String {
         }
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn printed_characters_are_counted() {
+        for (latex, expected) in [
+            ("k_a &= (0.2,\\ 0.2,\\ 0.2)", 18),
+            ("\\mathbf{n}\\cdot\\mathbf{l}_{1} &= 0.3478", 14),
+            ("\\mathrm{att}_{1} = 1/(0.5 + 0.5\\,d_{1}^2)", 23),
+            ("6.273\\cdot 10^{-52},\\quad \\cos\\varphi_{3}", 19),
+            ("&\\textbf{lamp\\_1}", 6),
+        ] {
+            assert_eq!(width(latex), expected, "{latex}");
+        }
+    }
+
+    #[test]
+    fn wide_lines_are_broken_and_pages_between_headings() {
+        let mut lines = Lines::default();
+        lines.say("Pixel");
+        lines.say("Surface");
+        let term = || "(0.1234,\\ 0.5678,\\ 0.9012)".to_owned();
+        lines.equal("I", &["a + b".to_owned(), term(), term()]);
+        lines.say("Light");
+        lines.row(&[("a".to_owned(), term()), ("b".to_owned(), term()), ("c".to_owned(), "1".to_owned())]);
+        lines.broken(format!("x &= {}", term()), [(Joint::Plus, term()), (Joint::Plus, term())].into_iter());
+        let term = term();
+        assert_eq!(
+            lines.blocks(),
+            format!(
+                "\\begin{{align*}}\n&\\textbf{{Pixel}} \\\\\n&\\textbf{{Surface}} \\\\\nI &= a + b = {term} = {term}\n\\end{{align*}}\n\
+                 \\begin{{align*}}\n&\\textbf{{Light}} \\\\\na &= {term},\\quad b = {term},\\quad c = 1 \\\\\n\
+                 x &= {term} + {term} \\\\\n&\\quad + {term}\n\\end{{align*}}"
+            )
+        );
+    }
 }
