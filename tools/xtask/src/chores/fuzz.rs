@@ -34,6 +34,9 @@ pub(crate) struct Options {
     /// How long each target is run
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     seconds: u32,
+    /// Stop a target sooner, after this many executions
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    executions: Option<u64>,
     /// The targets, by name; all where none is named
     #[arg(value_name = "TARGET")]
     targets: Vec<String>,
@@ -48,7 +51,7 @@ pub(crate) fn run(options: &Options) -> Result {
     let mut failures = Vec::new();
     let mut table = Vec::new();
     for target in targets {
-        match fuzzed(&target, options.seconds) {
+        match fuzzed(&target, options) {
             Ok(counts) => table.push(format!("{target:12} {counts}")),
             Err(failure) => failures.push(failure.to_string()),
         }
@@ -105,11 +108,15 @@ fn fuzz(command: &str, arguments: &[String]) -> Command {
 }
 
 /// Runs a target from its seeds and from the inputs of earlier runs.
-fn fuzzed(target: &str, seconds: u32) -> Result<Counts> {
+fn fuzzed(target: &str, options: &Options) -> Result<Counts> {
     let corpus = format!("fuzz/corpus/{target}");
     std::fs::create_dir_all(root().join(&corpus)).map_err(|error| Failure::new(format!("{corpus}: {error}")))?;
     let mut command = fuzz("run", &[target.into(), corpus, format!("fuzz/seeds/{target}"), "--".into()]);
-    command.args([format!("-max_total_time={seconds}"), format!("-dict=fuzz/dictionaries/{}.dict", language(target))]);
+    command.args(options.executions.map(|most| format!("-runs={most}")));
+    command.args([
+        format!("-max_total_time={}", options.seconds),
+        format!("-dict=fuzz/dictionaries/{}.dict", language(target)),
+    ]);
     command.args([MOST_MEMORY, MOST_TIME, "-seed=1", "-verbosity=0", "-print_funcs=0", "-print_final_stats=1"]);
     // Material libraries are read from files: on a disk a few hundred a second, in memory many thousands.
     if Path::new(MEMORY).is_dir() {
