@@ -39,7 +39,7 @@ def hashes():
     return {name: hashlib.sha256(np.ascontiguousarray(draw()).tobytes()).hexdigest()[:16] for name, draw in pictures()}
 
 
-@pytest.mark.parametrize("adapter", ["cpu", "cpu:avx512", "cpu:avx2", "cpu:plain"])
+@pytest.mark.parametrize("adapter", ["cpu", "cpu:avx512", "cpu:avx2", "cpu:neon", "cpu:plain"])
 def test_hashes(adapter):
     program = "import json, test_same_bits; print(json.dumps(test_same_bits.hashes()))"
     environment = os.environ | {"HALFWAY_ADAPTER": adapter, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))}
