@@ -33,7 +33,7 @@ impl Explanation {
 
 /// The most that a line may have of [`width`]: in an article of 10 points, whose text is 345 points wide, a unit takes
 /// 4.5 points.
-const WIDEST: usize = 72;
+const WIDEST: usize = 66;
 
 /// Where a line may be broken: what stands there when it is not.
 #[derive(Clone, Copy)]
