@@ -135,6 +135,11 @@ fn malformed_files_are_refused_by_line_or_element() {
             TRIANGLE.replace("element vertex 3\n", ""),
             ":3: `property float x`; an `element` before it is expected",
         ),
+        (
+            "element again",
+            TRIANGLE.replace("element face 1", "element vertex 1"),
+            ":7: `element vertex 1`; an `element` of another name is expected",
+        ),
         ("statement", TRIANGLE.replace("element face", "elephant face"), ":7: `elephant face 1`; `format`, `element`,"),
         (
             "no x",

@@ -161,6 +161,9 @@ pub(super) fn parse(reader: &mut Reader) -> Result<Header, LoadError> {
             }
             ["element", name, count] => {
                 let count = count.parse().map_err(|_| error("`element`, a name and a number are"))?;
+                if elements.iter().any(|before| before.name == name) {
+                    return Err(error("an `element` of another name is"));
+                }
                 elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
             }
             ["property", ..] => {
