@@ -8,10 +8,11 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use bevy_ecs::prelude::*;
 use egui::{Align2, Color32, ColorImage, Context, CursorIcon, FontId, Id, LayerId, Order, Rect, Sense, Stroke};
 use egui::{TextureHandle, TextureOptions, pos2, vec2};
-use halfway::lighting::{CameraTurn, Choices, Film, Part, Projection, Viewport};
+use halfway::lighting::{CameraTurn, Choices, Edges, Film, Layers, Part, Projection, Viewport};
 use halfway::prelude::*;
-use halfway::reference::{Oracle, OracleError};
-use halfway::render::WindowPicture;
+use halfway::reference::{Oracle, OracleError, Shows};
+use halfway::render::{Picture, Surfaces, WindowPicture, draw_background, draw_lines, has_lines};
+use image::{DynamicImage, RgbaImage};
 
 use crate::projected::pixels_of;
 
@@ -73,7 +74,16 @@ struct Key {
 
 struct Job {
     stop: Arc<AtomicBool>,
-    done: Receiver<Vec<u8>>,
+    done: Receiver<Surfaced>,
+}
+
+/// The reference renderer's picture of surfaces, and what is needed to put the background behind it and lines over it.
+struct Surfaced {
+    picture: RgbaImage,
+    /// How much of the background each pixel shows; `None` where it is one opaque colour, which is there already.
+    background: Option<Vec<f32>>,
+    /// The object and the triangle that each pixel shows, where there are lines.
+    triangles: Option<Vec<Option<(Entity, u32)>>>,
 }
 
 impl Drop for Job {
@@ -85,6 +95,12 @@ impl Drop for Job {
 impl Split {
     pub(crate) fn new(way: Way) -> Self {
         Self { way, at: 0.5, camera: None, oracle: Drawn::default() }
+    }
+
+    /// The bytes of the reference renderer's picture, red, green and blue, once it is drawn.
+    #[cfg(test)]
+    pub(crate) fn reference_picture(&self) -> Option<&[u8]> {
+        self.oracle.bytes.as_deref()
     }
 
     /// Takes what it has put into the world out of it.
@@ -160,7 +176,6 @@ impl Split {
         let cut = ((self.at * width as f32).round() as u32).min(width - 1);
         let viewport = Viewport::pixels([left + cut, top, width - cut, height]).with_order(1);
         let Some(camera) = world.get::<Camera>(main).copied() else { return };
-        let look = (world.get::<Reflectance>(main).copied(), world.get::<halfway::lighting::Layers>(main).copied());
         let right = Camera { projection: part(camera.projection, [width, height], cut), ..camera };
         if world.get::<Viewport>(main).is_none() {
             world.entity_mut(main).insert(pixels_of(window, scale));
@@ -168,14 +183,10 @@ impl Split {
         let second = *self.camera.get_or_insert_with(|| {
             world.spawn((Name::new("right of the divider"), Transform::default(), ChildOf(main))).id()
         });
-        let mut entity = world.entity_mut(second);
-        entity.insert((right, viewport, shading));
-        if let Some(reflectance) = look.0 {
-            entity.insert(reflectance);
-        }
-        if let Some(layers) = look.1 {
-            entity.insert(layers);
-        }
+        world.entity_mut(second).insert((right, viewport, shading));
+        share::<Reflectance>(world, main, second);
+        share::<Layers>(world, main, second);
+        share::<Edges>(world, main, second);
     }
 
     /// The texture of the reference renderer's picture, or of how far the window's is from it.
@@ -227,6 +238,14 @@ impl Split {
     }
 }
 
+/// Gives an entity the component of another, or takes it away where that has none.
+fn share<T: Component + Clone>(world: &mut World, from: Entity, to: Entity) {
+    match world.get::<T>(from).cloned() {
+        Some(component) => _ = world.entity_mut(to).insert(component),
+        None => _ = world.entity_mut(to).remove::<T>(),
+    }
+}
+
 impl Drawn {
     /// Begins the picture on a thread of its own, or takes it from there.
     fn draw(
@@ -240,6 +259,9 @@ impl Drawn {
         }
         let Some(job) = &self.job else {
             let oracle = seen_by(camera, size, world).map_err(|error| error.to_string())?;
+            let has_background =
+                !oracle.has_sky() && world.get::<Camera>(camera).is_some_and(|it| !it.background_is_plain());
+            let has_lines = has_lines(world);
             let (sender, done) = channel();
             let stop = Arc::new(AtomicBool::new(false));
             let asked = Arc::clone(&stop);
@@ -247,16 +269,29 @@ impl Drawn {
                 let goes_on = |_, _| {
                     if asked.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
                 };
-                if let Ok(picture) = oracle.draw_with(&goes_on) {
-                    // Nobody waits for it any more if it cannot be sent.
-                    let _ = sender.send(picture.to_bytes(encoding).into_raw());
-                }
+                let Ok(picture) = oracle.draw_with(&goes_on) else { return };
+                let triangle = |x: u32, y: u32| {
+                    let nearest = oracle.probe(f64::from(x) + 0.5, f64::from(y) + 0.5).nearest?;
+                    Some((nearest.object, nearest.triangle?))
+                };
+                let row = |y: u32| (0..size.x).map(move |x| (x, y));
+                let triangles = has_lines.then(|| (0..size.y).flat_map(row).map(|(x, y)| triangle(x, y)).collect());
+                let picture = DynamicImage::from(picture.to_bytes(encoding)).into_rgba8();
+                let background = has_background.then(|| {
+                    let coverage = oracle.showing(Shows::Coverage).draw();
+                    coverage.pixels().iter().map(|&[coverage, ..]| (1.0 - coverage) as f32).collect()
+                });
+                // Nobody waits for it any more if it cannot be sent.
+                let _ = sender.send(Surfaced { picture, background, triangles });
             });
             self.job = Some(Job { stop, done });
             return Ok(());
         };
         match job.done.try_recv() {
-            Ok(bytes) => (self.bytes, self.job) = (Some(bytes), None),
+            Ok(surfaced) => {
+                self.job = None;
+                self.bytes = Some(in_turn(camera, world, |world| surfaced.finished(camera, world)));
+            }
             Err(TryRecvError::Empty) => {}
             Err(TryRecvError::Disconnected) => return Err("it could not be drawn".into()),
         }
@@ -264,16 +299,40 @@ impl Drawn {
     }
 }
 
+impl Surfaced {
+    /// The bytes of the whole picture, red, green and blue. Lines that cannot be drawn are an error of the window's frame.
+    fn finished(self, camera: Entity, world: &mut World) -> Vec<u8> {
+        let size = UVec2::from(self.picture.dimensions());
+        let mut picture = Picture::Byte(self.picture);
+        if let (Some(shares), Some(camera)) = (self.background, world.get::<Camera>(camera)) {
+            draw_background(&mut picture, &shares, camera);
+        }
+        if let Some(triangles) = self.triangles {
+            let at = |x, y| triangles[(y * size.x + x) as usize];
+            let drawn =
+                Surfaces::found_by(world, size, at).and_then(|surfaces| draw_lines(world, &mut picture, &surfaces));
+            drawn.ok();
+        }
+        let Picture::Byte(picture) = picture else { return Vec::new() };
+        DynamicImage::from(picture).into_rgb8().into_raw()
+    }
+}
+
 /// The reference renderer, for the picture of one of the cameras that share the window.
 pub(crate) fn seen_by(camera: Entity, size: UVec2, world: &mut World) -> Result<Oracle, OracleError> {
+    in_turn(camera, world, |world| Oracle::new(world, size).map(|oracle| oracle.with_clamping(true)))
+}
+
+/// Calls `work` while it is this camera's turn.
+fn in_turn<T>(camera: Entity, world: &mut World, work: impl FnOnce(&mut World) -> T) -> T {
     let turn = world.get_resource::<CameraTurn>().copied();
     world.insert_resource(CameraTurn(Some(camera)));
-    let oracle = Oracle::new(world, size).map(|oracle| oracle.with_clamping(true));
+    let result = work(world);
     match turn {
         Some(turn) => world.insert_resource(turn),
         None => drop(world.remove_resource::<CameraTurn>()),
     }
-    oracle
+    result
 }
 
 /// The projection of the part of a picture from this column on.

@@ -21,7 +21,7 @@ pub struct ModelView {
 
 impl ModelView {
     /// Of an object with this transform, as the view with this epoch sees it; and its normal matrix.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn of_object(
         eye_from_model: &DAffine3,
         lengths: Lengths,
@@ -38,7 +38,7 @@ impl ModelView {
         self.made_from == Some((epoch, transform.affine()))
     }
 
-    #[inline(always)]
+    #[inline]
     fn with_lengths(eye_from_model: &DAffine3, lengths: Lengths) -> Self {
         let DAffine3 { matrix3: m, translation } = eye_from_model;
         Self {
@@ -94,7 +94,7 @@ pub(crate) fn make_anew(view: &View, visible: &[Entity], mut objects: Query<Matr
 }
 
 /// `eye_from_model` in f64. Both transforms are world-sized, so only their difference is rounded.
-#[inline(always)]
+#[inline]
 pub(super) fn compose(eye_from_world: &DAffine3, world_from_model: &GlobalTransform) -> DAffine3 {
     let affine = world_from_model.affine();
     let world_from_model = DAffine3 {
@@ -113,14 +113,14 @@ pub(super) fn compose(eye_from_world: &DAffine3, world_from_model: &GlobalTransf
 pub(crate) struct Lengths([f64; 3]);
 
 impl Lengths {
-    #[inline(always)]
+    #[inline]
     pub(super) fn new(m: &DMat3) -> Self {
         Self([m.x_axis.length(), m.y_axis.length(), m.z_axis.length()])
     }
 
     /// An upper bound of how much the matrix stretches a length: the Frobenius norm, or the exact factor
     /// where the columns are orthogonal, as they are without shear.
-    #[inline(always)]
+    #[inline]
     pub(super) fn largest_scale(self, m: &DMat3) -> f64 {
         let Self([x, y, z]) = self;
         let largest = x.max(y).max(z);
@@ -130,7 +130,7 @@ impl Lengths {
 
     /// Whether the matrix turns windings over: its determinant is negative. Transforms are kept in f32, so a determinant
     /// of unit columns within 8 ε of 0 is a rounding error; such a matrix flattens, and counts as not mirroring.
-    #[inline(always)]
+    #[inline]
     fn is_mirror(self, m: &DMat3) -> bool {
         let Self([x, y, z]) = self;
         // Numbers of f32, so that no product of three leaves f64.
@@ -139,7 +139,7 @@ impl Lengths {
 }
 
 /// Whether the columns are equally long and at right angles, up to the rounding of transforms in f32.
-#[inline(always)]
+#[inline]
 fn keeps_angles(m: &DMat3) -> bool {
     let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
     let square = x.length_squared();
@@ -154,7 +154,7 @@ pub fn normal_matrix(m: &DMat3) -> Mat3 {
     signed_cofactors(m, Lengths::new(m).is_mirror(m))
 }
 
-#[inline(always)]
+#[inline]
 fn signed_cofactors(m: &DMat3, mirrored: bool) -> Mat3 {
     let largest = |m: &DMat3| {
         let DVec3 { x, y, z } = m.x_axis.abs().max(m.y_axis.abs()).max(m.z_axis.abs());

@@ -65,7 +65,7 @@ impl Joint {
 /// The lines of the blocks, and how many of them are in those before the last.
 #[derive(Default)]
 struct Lines {
-    lines: Vec<String>,
+    each: Vec<String>,
     blocks: Vec<usize>,
     is_heading: bool,
 }
@@ -74,9 +74,9 @@ impl Lines {
     /// A line of words. It begins a block, for pages are broken between blocks only, unless one stands before it.
     fn say(&mut self, words: &str) {
         if !self.is_heading {
-            self.blocks.push(self.lines.len());
+            self.blocks.push(self.each.len());
         }
-        self.lines.push(format!("&\\textbf{{{}}}", escaped(words)));
+        self.each.push(format!("&\\textbf{{{}}}", escaped(words)));
         self.is_heading = true;
     }
 
@@ -102,18 +102,18 @@ impl Lines {
                 line.extend([unbroken, &part]);
             } else {
                 let (end, begin) = joint.broken();
-                self.lines.push(line + end);
+                self.each.push(line + end);
                 line = format!("{begin}{part}");
             }
         }
-        self.lines.push(line);
+        self.each.push(line);
         self.is_heading = false;
     }
 
     fn blocks(&self) -> String {
-        let ends = self.blocks[1..].iter().copied().chain([self.lines.len()]);
+        let ends = self.blocks[1..].iter().copied().chain([self.each.len()]);
         let block = |(begin, end): (&usize, usize)| {
-            format!("\\begin{{align*}}\n{}\n\\end{{align*}}", self.lines[*begin..end].join(" \\\\\n"))
+            format!("\\begin{{align*}}\n{}\n\\end{{align*}}", self.each[*begin..end].join(" \\\\\n"))
         };
         self.blocks.iter().zip(ends).map(block).collect::<Vec<_>>().join("\n")
     }

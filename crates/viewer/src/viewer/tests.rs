@@ -7,6 +7,10 @@ use halfway::mesh::UvSphere;
 use halfway::scene::{EdgesEntry, LightEntry, LightsEntry, MaterialEntry, MeshEntry, ObjectEntry, SceneFile};
 
 use super::*;
+use crate::projected::pixels_of;
+use halfway::lighting::Part;
+use halfway::record::{FrameToDraw, ReferenceDrawing};
+use std::ops::ControlFlow;
 
 const WINDOW: Rect = Rect { min: Pos2::ZERO, max: pos2(1280.0, 720.0) };
 
@@ -388,14 +392,30 @@ fn the_reference_is_drawn_beside_the_window() {
             egui::epaint::Primitive::Callback(_) => false,
         })
     };
-    for _ in 0..600 {
-        hands.frames(1);
-        if has_texture(&hands) {
-            return;
+    let mut before = None;
+    // Without lines, and with lines along edges.
+    for edges in [false, true] {
+        if edges {
+            hands.key(Key::E, Modifiers::NONE);
+            hands.frames(2);
         }
-        std::thread::sleep(Duration::from_millis(50));
+        let mut waits = 0;
+        while !has_texture(&hands) {
+            assert!(waits < 600, "no picture of the reference renderer");
+            waits += 1;
+            std::thread::sleep(Duration::from_millis(50));
+            hands.frames(1);
+        }
+        let drawn = hands.viewer.split.as_ref().and_then(Split::reference_picture).expect("it is shown").to_vec();
+        let Part::Pixels([left, top, width, height]) = pixels_of(hands.viewer.area, 1.0).part else { unreachable!() };
+        let frame = FrameToDraw { number: 0, size: UVec2::new(1280, 720), pixels: Pixels::Byte };
+        let goes_on = |_, _| ControlFlow::Continue(());
+        let whole = ReferenceDrawing::default().picture(&mut hands.app, frame, &goes_on).expect("a picture");
+        let Picture::Byte(part) = whole.part(UVec2::new(left, top), UVec2::new(width, height)) else { unreachable!() };
+        let expected: Vec<u8> = part.pixels().flat_map(|pixel| [pixel.0[0], pixel.0[1], pixel.0[2]]).collect();
+        assert!(drawn == expected, "edges: {edges}");
+        assert!(before.replace(drawn) != Some(expected), "edges: {edges}");
     }
-    panic!("no picture of the reference renderer");
 }
 
 #[test]
