@@ -379,12 +379,18 @@ fn what_has_not_changed_is_kept_for_each_camera() {
         let objects: Vec<_> = world.query_filtered::<Entity, With<Mesh3d>>().iter(world).collect();
         let lamps: Vec<_> = world.query_filtered::<Entity, With<PointLight>>().iter(world).collect();
         let mut put = |entities: &[Entity], place: Transform| {
-            entities.iter().for_each(|&entity| _ = world.entity_mut(entity).insert(place));
+            for &entity in entities {
+                world.entity_mut(entity).insert(place);
+            }
         };
         match step {
             // Objects stand, and their matrices are needed again.
             2 => put(&lamps, Transform::from_xyz(-1.0, 1.0, 2.0)),
-            3 => objects.iter().for_each(|&object| _ = world.entity_mut(object).insert(other_material())),
+            3 => {
+                for &object in &objects {
+                    world.entity_mut(object).insert(other_material());
+                }
+            }
             // Out of sight.
             5 => put(&objects, Transform::from_xyz(0.0, 0.0, 500.0)),
             7 => put(&objects, rotated(-0.2, 0.3, 0.1)),
@@ -417,7 +423,7 @@ fn what_has_not_changed_is_kept_for_each_camera() {
         let shared = take(&mut stage, Pixels::Byte);
         assert_eq!(stage.report().matrices == 0, [1, 2, 3, 5, 6].contains(&step), "in step {step}");
         let of_last = part(&shared, sharers[2].part());
-        let differs = std::mem::replace(&mut before, Some(of_last.clone())) != Some(of_last);
+        let differs = before.replace(of_last.clone()) != Some(of_last);
         assert_eq!(differs, [0, 2, 3, 4, 5, 7, 9].contains(&step), "step {step} shows");
         anew.set(&scene());
         (0..=step).for_each(|step| changed(&mut anew, step));
