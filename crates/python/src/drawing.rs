@@ -11,6 +11,7 @@ use halfway::lighting::equations::srgb_encoded;
 use halfway::lighting::{Choices, Term};
 use halfway::output::ContactSheet;
 use halfway::prelude::*;
+use halfway::reference::marking::Rubric;
 use halfway::render::{EmptyReason, why_empty};
 use halfway::scene::options::{
     SceneOptions, parse, remove_what_is_laid_over, scene_of_models, unknown_material, views,
@@ -25,7 +26,7 @@ use pyo3::types::{PyByteArray, PyDict};
 
 use crate::mesh::Mesh as PyMesh;
 use crate::pictures::{Given, Pixels as PyPixels, floats, to_python};
-use crate::reference::{Judged, explained, judge_given, reference_picture};
+use crate::reference::{Judged, explained, judge_given, mark_given, reference_picture};
 use crate::work::{Failure, detached};
 
 /// A scene with its meshes, spawned into an App that is kept from picture to picture.
@@ -313,13 +314,10 @@ impl Drawing {
     /// Judges a picture by the reference renderer.
     fn judge<'py>(&self, py: Python<'py>, pixels: Given, size: (u32, u32), most: f64) -> PyResult<Bound<'py, PyDict>> {
         let picture = pixels.picture(py, size)?;
-        let recipe = detached(py, || Ok(self.stage().recipe.clone()))?;
         let judged = detached(py, move || {
-            let mut recipe = Recipe { renderer: Renderer::Reference, ..recipe };
-            remove_what_is_laid_over(&mut recipe.scene);
+            let mut recipe = self.recipe_of_reference(size);
             recipe.scene.samples = 1;
             recipe.scene.all_cameras_mut().for_each(|camera| camera.samples = None);
-            recipe.scene.size = [size.0, size.1];
             judge_given(&recipe, &picture, most)
         })?;
         let Judged { is_within, worst, at, equal, edges, bad, sentence } = judged;
@@ -332,6 +330,30 @@ impl Drawing {
         figures.set_item("bad", bad)?;
         figures.set_item("sentence", sentence)?;
         Ok(figures)
+    }
+
+    /// Marks a picture by the reference renderer, with points by a rubric in JSON: as JSON, and in sentences.
+    fn mark(
+        &self,
+        py: Python<'_>,
+        pixels: Given,
+        size: (u32, u32),
+        most: f64,
+        rubric: &str,
+    ) -> PyResult<(String, String)> {
+        let rubric = Rubric::from_json(rubric).map_err(|error| Failure::Input(format!("rubric: {error}")))?;
+        let picture = pixels.picture(py, size)?;
+        detached(py, move || mark_given(&self.recipe_of_reference(size), &picture, most, &rubric))
+    }
+}
+
+impl Drawing {
+    /// The recipe for the reference renderer's picture of this size, without what lies over or behind surfaces.
+    fn recipe_of_reference(&self, size: (u32, u32)) -> Recipe {
+        let mut recipe = Recipe { renderer: Renderer::Reference, ..self.stage().recipe.clone() };
+        remove_what_is_laid_over(&mut recipe.scene);
+        recipe.scene.size = [size.0, size.1];
+        recipe
     }
 }
 

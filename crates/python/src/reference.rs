@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use halfway::prelude::*;
 use halfway::record::{FrameToDraw, ReferenceDrawing};
 use halfway::reference::Oracle;
+use halfway::reference::marking::{Report, Rubric, examine};
 use halfway::reference::metrics::{Bars, judge};
 
 use crate::drawing::Recipe;
@@ -49,18 +50,23 @@ pub(crate) struct Judged {
     pub(crate) sentence: String,
 }
 
-/// Judges a picture of the scene; no pixel may differ by more than `most` steps of 1/255 from every colour that it may
+/// The bars for a picture, of which no pixel may differ by more than `most` steps of 1/255 from every colour that it may
 /// show.
+fn bars(picture: &Picture, most: f64, encoding: Encoding) -> Bars {
+    match picture {
+        Picture::Byte(_) => Bars { most, worst: most, equal: 0.0, ..Bars::bytes(encoding) },
+        Picture::Float(_) => Bars::FLOAT,
+    }
+}
+
+/// Judges a picture of the scene.
 pub(crate) fn judge_given(recipe: &Recipe, picture: &Picture, most: f64) -> Result<Judged, Failure> {
     let (mut app, _) = recipe.play()?;
     app.update();
     let encoding = recipe.scene.output;
-    let (is_clamped, bars) = match picture {
-        Picture::Byte(_) => (true, Bars { most, worst: most, equal: 0.0, ..Bars::bytes(encoding) }),
-        Picture::Float(_) => (false, Bars::FLOAT),
-    };
+    let bars = bars(picture, most, encoding);
     let size = UVec2::from_array(recipe.scene.size);
-    let oracle = Oracle::new(app.world_mut(), size).map_err(Failure::work)?.with_clamping(is_clamped);
+    let oracle = Oracle::new(app.world_mut(), size).map_err(Failure::work)?.with_clamping(bars.are_clamped());
     let found = judge(&oracle, &oracle.draw(), &intensities(picture, encoding), bars).map_err(Failure::input)?;
     Ok(Judged {
         is_within: found.is_within(),
@@ -71,4 +77,21 @@ pub(crate) fn judge_given(recipe: &Recipe, picture: &Picture, most: f64) -> Resu
         bad: found.bad,
         sentence: found.to_string(),
     })
+}
+
+/// Marks a picture of the scene: as JSON, and in sentences.
+pub(crate) fn mark_given(
+    recipe: &Recipe,
+    picture: &Picture,
+    most: f64,
+    rubric: &Rubric,
+) -> Result<(String, String), Failure> {
+    let (mut app, _) = recipe.play()?;
+    app.update();
+    let encoding = recipe.scene.output;
+    let (bars, actual) = (bars(picture, most, encoding), intensities(picture, encoding));
+    let goes_on = |_, _| ControlFlow::Continue(());
+    let examined = examine(app.world_mut(), &actual, encoding, bars, &goes_on).map_err(Failure::input)?;
+    let report = Report::new("the picture".into(), recipe.scene.size, examined, rubric);
+    Ok((report.to_json().to_string(), report.to_string()))
 }

@@ -209,6 +209,21 @@ def test_one_term_and_one_light_alone(box):
         draw(only="shiny")
 
 
+def test_pictures_are_marked(box):
+    scene = halfway.Scene(halfway.Mesh(*box, name="box"))
+    picture = scene.reference(size=SIZE, samples=1)
+    right = halfway.mark(picture, scene)
+    assert right.passes and right.mistakes == [] and right["mark"] == right["points"] == 100
+    mirrored = np.ascontiguousarray(picture.array[:, ::-1])
+    wrong = scene.mark(mirrored, rubric={"points": 10, "mistakes": {"mirrored": 4}})
+    assert not wrong.passes and wrong.mistakes == ["mirrored"] and wrong["mark"] == 6, wrong.text
+    assert "6 of 10 points" in wrong.text and "explains" in str(wrong) and "6 of 10" in repr(wrong)
+    with pytest.raises(ValueError, match='rubric: unknown key "point"; expected points, mistake'):
+        scene.mark(mirrored, rubric={"point": 1})
+    with pytest.raises(FileNotFoundError):
+        scene.mark(mirrored, rubric="nowhere.json")
+
+
 def test_the_reference_renderer_draws_the_same(box):
     scene = halfway.Scene(halfway.Mesh(*box))
     picture = scene.render(size=SIZE)

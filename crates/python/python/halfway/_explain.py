@@ -1,4 +1,4 @@
-"""Pixels, explained."""
+"""Pixels that are explained, and pictures that are marked."""
 
 from __future__ import annotations
 
@@ -38,3 +38,33 @@ class Explanation(dict[str, Any]):
 
     def _repr_latex_(self) -> str:
         return self.latex
+
+
+class Report(dict[str, Any]):
+    """What is said of a picture that was marked: what `halfway mark --json` prints but the figures, as a dictionary.
+
+    `text` has it in sentences, with what to look for in the program that drew the picture.
+    """
+
+    text: str
+
+    def __init__(self, values: dict[str, Any], text: str) -> None:
+        super().__init__(values)
+        self.text = text
+
+    @property
+    def passes(self) -> bool:
+        """Whether the picture is right."""
+        return bool(self["passes"])
+
+    @property
+    def mistakes(self) -> list[str]:
+        """The names of the mistakes that explain the difference best; none where nothing explains it."""
+        best = self["explanations"][:1]
+        return [cause[0]["name"] for explanation in best for cause in explanation["causes"]]
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        return f"<halfway report: {self['mark']:g} of {self['points']:g} points>"

@@ -9,7 +9,7 @@ from typing import Any, Unpack, overload
 import numpy.typing as npt
 
 from ._arguments import Options
-from ._explain import Explanation
+from ._explain import Explanation, Report
 from ._mesh import Mesh, placed
 from ._picture import Picture
 from ._scene import Outputs, Scene
@@ -95,3 +95,6 @@ def verify(picture: Any, scene: Any, **arguments: Any) -> dict[str, Any]:
     return scene_of(scene).verify(picture, **arguments)
 
 
+def mark(picture: Any, scene: Any, **arguments: Any) -> Report:
+    """Marks a picture that somebody has drawn of a scene: see `Scene.mark`."""
+    return scene_of(scene).mark(picture, **arguments)

@@ -7,6 +7,7 @@ import operator
 import os
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any, Unpack, overload
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy.typing as npt
 
 from . import _halfway
 from ._arguments import COLOR_OPTIONS, Color, Options, as_json, color_text, linear, matrix, numbers, option_texts, size_of
-from ._explain import Explanation
+from ._explain import Explanation, Report
 from ._mesh import Mesh, Placed, placed
 from ._parts import COLORS, placed_by
 from ._picture import Comparison, Picture, as_picture, from_pixels, save_animation
@@ -509,6 +510,16 @@ class Scene:
         judged: dict[str, Any] = drawing.judge(np.ascontiguousarray(np.asarray(given)), given._size, float(max))
         return judged
 
+    def mark(self, picture: Any, *, rubric: Any = None, camera: Any = None, max: int = 1,
+             **options: Unpack[Options]) -> Report:
+        """Marks a picture of this scene that somebody has drawn: whether it is right, its points, and which mistakes
+        explain the difference. `rubric` is a file or a dictionary with the keys of `halfway mark --rubric`; the other
+        arguments are those of `verify`."""
+        given = as_picture(picture)
+        drawing, _ = self._drawing(given._size, camera, options, False)
+        values, text = drawing.mark(np.ascontiguousarray(np.asarray(given)), given._size, float(max), _rubric(rubric))
+        return Report(json.loads(values), text)
+
     def explain(self, at: Sequence[int], *, size: object = None, camera: Any = None, time: float = 0.0,
                 **options: Unpack[Options]) -> Explanation:
         """Explains the pixel in column and row `at`, counted from 0 from the top left, of a picture of `size` pixels: its
@@ -539,6 +550,15 @@ class Scene:
 def _expect_frames(frames: int) -> None:
     if not isinstance(frames, int) or not 1 <= frames <= 100_000:
         raise ValueError(f"frames: {frames!r}; expected 1 to 100000")
+
+
+def _rubric(rubric: Any) -> str:
+    """A rubric as JSON."""
+    if rubric is None:
+        return "{}"
+    if isinstance(rubric, Mapping):
+        return as_json(dict(rubric))
+    return Path(rubric).read_text(encoding="utf-8")
 
 
 def _with_size(camera: Mapping[str, Any], size: tuple[int, int]) -> dict[str, Any]:

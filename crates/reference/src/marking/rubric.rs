@@ -1,5 +1,6 @@
 //! Points for a picture.
 
+use serde_json::{Map, Value};
 use thiserror::Error;
 
 use super::diagnosis::Diagnosis;
@@ -38,6 +39,9 @@ pub enum RubricError {
         /// Its value.
         found: f64,
     },
+    /// JSON that is no rubric: where, and what was expected.
+    #[error("{0}")]
+    Json(String),
     /// No listed mistake has this name.
     #[error("mistakes: {name:?} is not the name of a mistake; expected one of {}", names())]
     Unknown {
@@ -45,6 +49,9 @@ pub enum RubricError {
         name: String,
     },
 }
+
+/// The keys of a rubric in JSON.
+const KEYS: [&str; 4] = ["points", "mistake", "unexplained", "mistakes"];
 
 fn names() -> String {
     Mistake::ALL.iter().map(|mistake| mistake.name()).collect::<Vec<_>>().join(", ")
@@ -61,6 +68,43 @@ impl Rubric {
             is_points(field, found)?;
         }
         Ok(Self { points, mistake, unexplained, own: Vec::new() })
+    }
+
+    /// Reads an object of JSON: `{"points": 10, "mistake": 2, "unexplained": 5, "mistakes": {"gamma-missing": 1}}`. Keys
+    /// that are left out have the values of the default.
+    ///
+    /// # Errors
+    /// It is no such object, or [`new`](Self::new) and [`with_mistake`](Self::with_mistake) refuse it.
+    pub fn from_json(text: &str) -> Result<Self, RubricError> {
+        let json: Value = serde_json::from_str(text)
+            .map_err(|error| RubricError::Json(format!("{error}; expected a rubric in JSON")))?;
+        let Value::Object(entries) = &json else {
+            return Err(RubricError::Json(format!("{json}; expected an object of JSON")));
+        };
+        if let Some(unknown) = entries.keys().find(|key| !KEYS.contains(&key.as_str())) {
+            return Err(RubricError::Json(format!("unknown key {unknown:?}; expected {}", KEYS.join(", "))));
+        }
+        let points = |key: &str, value: &Value| {
+            value.as_f64().ok_or_else(|| RubricError::Json(format!("{key}: {value}; expected a number of points")))
+        };
+        let number = |key: &str, otherwise: f64| entries.get(key).map_or(Ok(otherwise), |value| points(key, value));
+        let default = Self::default();
+        let rubric = Self::new(
+            number("points", default.points)?,
+            number("mistake", default.mistake)?,
+            number("unexplained", default.unexplained)?,
+        )?;
+        let own = match entries.get("mistakes") {
+            None => &Map::new(),
+            Some(Value::Object(own)) => own,
+            Some(other) => {
+                let message = format!("mistakes: {other}; expected an object of names and points");
+                return Err(RubricError::Json(message));
+            }
+        };
+        own.iter().try_fold(rubric, |rubric, (name, lost)| {
+            rubric.with_mistake(name, points(&format!("mistakes.{name}"), lost)?)
+        })
     }
 
     /// The same where the mistake of this name takes `lost` points away.
@@ -117,4 +161,37 @@ impl Default for Rubric {
 
 fn is_points(field: &str, found: f64) -> Result<(), RubricError> {
     if found.is_finite() && found >= 0.0 { Ok(()) } else { Err(RubricError::NotPoints { field: field.into(), found }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_out_is_as_by_default() {
+        assert_eq!(Rubric::from_json("{}").expect("an empty rubric"), Rubric::default());
+        let rubric =
+            Rubric::from_json(r#"{"points": 10, "mistake": 2.5, "mistakes": {"mirrored": 0, "gamma-twice": 1}}"#);
+        let rubric = rubric.expect("a rubric");
+        let lost = [Mistake::Mirrored, Mistake::GammaTwice, Mistake::GammaMissing].map(|it| rubric.lost(it));
+        assert_eq!((rubric.points(), rubric.unexplained(), lost), (10.0, 50.0, [0.0, 1.0, 2.5]));
+    }
+
+    #[test]
+    fn errors_name_the_key_and_what_is_expected() {
+        for (text, expected) in [
+            ("{", "expected a rubric in JSON"),
+            ("[]", "[]; expected an object of JSON"),
+            (r#"{"point": 1}"#, "unknown key \"point\"; expected points, mistake, unexplained, mistakes"),
+            (r#"{"points": "many"}"#, "points: \"many\"; expected a number of points"),
+            (r#"{"points": -1}"#, "points: -1; expected a finite number of points, 0 or more"),
+            (r#"{"mistakes": 3}"#, "mistakes: 3; expected an object of names and points"),
+            (r#"{"mistakes": {"mirrored": null}}"#, "mistakes.mirrored: null; expected a number of points"),
+            (r#"{"mistakes": {"mirrored": -2}}"#, "mirrored: -2; expected a finite number of points, 0 or more"),
+            (r#"{"mistakes": {"typo": 1}}"#, "\"typo\" is not the name of a mistake; expected one of normals-not-"),
+        ] {
+            let error = Rubric::from_json(text).expect_err(text).to_string();
+            assert!(error.contains(expected), "{text}: {error}");
+        }
+    }
 }

@@ -1,17 +1,16 @@
 //! `halfway mark`.
 
-mod reports;
-mod rubric;
-
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use halfway::prelude::*;
-use halfway::reference::marking::{ExamineError, Examined, Rubric, examine};
+use halfway::reference::marking::{ExamineError, Report, Rubric, examine};
 use halfway::scene::options::remove_what_is_laid_over;
 
 use crate::drawing::{DrawingArgs, SizeArgs};
 use crate::failure::{DIFFERENT, Failure, STOPPED};
+use crate::figures;
 use crate::input::SceneInput;
 use crate::progress::Progress;
 use crate::verify::{Given, text};
@@ -48,18 +47,9 @@ enum ReportFormat {
     Submitty,
 }
 
-/// All that is said of a picture.
-struct Report {
-    picture: String,
-    size: UVec2,
-    examined: Examined,
-    mark: f64,
-    points: f64,
-}
-
 pub(crate) fn run(args: &MarkArgs) -> Result<(), Failure> {
     args.drawing.input.without_picture()?;
-    let rubric = args.rubric.as_deref().map_or_else(|| Ok(Rubric::default()), rubric::read)?;
+    let rubric = args.rubric.as_deref().map_or_else(|| Ok(Rubric::default()), read_rubric)?;
     let mut input = SceneInput::read(&args.drawing, &args.drawing.options())?;
     if remove_what_is_laid_over(&mut input.scene) {
         eprintln!("note: marked without lines along edges and before an opaque background of one colour");
@@ -70,16 +60,20 @@ pub(crate) fn run(args: &MarkArgs) -> Result<(), Failure> {
     }
     let report = report(args, input, &args.picture, &rubric)?;
     match args.json {
-        None => print!("{}", reports::lines(&report)),
-        Some(ReportFormat::Halfway) => println!("{}", reports::json(&report)),
-        Some(ReportFormat::Gradescope) => println!("{}", reports::gradescope(&report)),
-        Some(ReportFormat::Submitty) => println!("{}", reports::submitty(&report)),
+        None => print!("{report}"),
+        Some(ReportFormat::Halfway) => {
+            let mut json = report.to_json();
+            json["verdict"] = figures::verdict(&report.examined.verdict);
+            println!("{json}");
+        }
+        Some(ReportFormat::Gradescope) => println!("{}", report.to_gradescope()),
+        Some(ReportFormat::Submitty) => println!("{}", report.to_submitty()),
     }
     if report.examined.passes() {
         Ok(())
     } else {
-        let (file, mark, points) = (&report.picture, reports::points(report.mark), reports::points(report.points));
-        Err(Failure::new(DIFFERENT, format!("{file}: differs from the scene; {mark} of {points} points")))
+        let (file, marked) = (&report.picture, report.marked());
+        Err(Failure::new(DIFFERENT, format!("{file}: differs from the scene; {marked}")))
     }
 }
 
@@ -93,11 +87,11 @@ fn report(args: &MarkArgs, input: SceneInput, file: &Path, rubric: &Rubric) -> R
         other => text(other),
     })?;
     drop(progress);
-    Ok(Report {
-        picture: file.display().to_string(),
-        size,
-        mark: examined.mark(rubric),
-        points: rubric.points(),
-        examined,
-    })
+    Ok(Report::new(file.display().to_string(), size.to_array(), examined, rubric))
+}
+
+fn read_rubric(file: &Path) -> Result<Rubric, Failure> {
+    let name = file.display();
+    let text = fs::read_to_string(file).map_err(|error| format!("{name}: cannot be read: {error}"))?;
+    Rubric::from_json(&text).map_err(|error| format!("{name}: {error}").into())
 }
