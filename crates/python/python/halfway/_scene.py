@@ -514,7 +514,8 @@ class Scene:
              **options: Unpack[Options]) -> Report:
         """Marks a picture of this scene that somebody has drawn: whether it is right, its points, and which mistakes
         explain the difference. `rubric` is a file or a dictionary with the keys of `halfway mark --rubric`; the other
-        arguments are those of `verify`."""
+        arguments are those of `verify`. It is marked without lines along edges, before an opaque background of one
+        colour."""
         given = as_picture(picture)
         drawing, _ = self._drawing(given._size, camera, options, False)
         values, text = drawing.mark(np.ascontiguousarray(np.asarray(given)), given._size, float(max), _rubric(rubric))

@@ -12,7 +12,7 @@ use crate::mistakes::Mistake;
 /// All that is said of a picture: [`Display`](fmt::Display) writes it in sentences, a line each.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// What the picture is called.
+    /// The name of the picture.
     pub picture: String,
     /// Its width and height.
     pub size: [u32; 2],
